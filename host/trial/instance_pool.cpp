@@ -27,8 +27,8 @@ InstancePool::~InstancePool() {
   }
 }
 
-Instance& InstancePool::get(const PluginUse& use, std::int32_t robot, std::uint32_t copy) {
-  auto& instance = instances_[{&use, robot, copy}];
+Instance& InstancePool::get(const PluginUse& use, std::int32_t robot) {
+  auto& instance = instances_[{&use, robot}];
   if (!instance) instance = std::make_unique<Instance>(*libraries_.at(use.library).library, use, robot, guard_, log_);
   return *instance;
 }

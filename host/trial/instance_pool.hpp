@@ -20,8 +20,8 @@ class InstancePool {
   InstancePool& operator=(const InstancePool&) = delete;
 
   // The instance for this use of a plugin, created by the first call. `use` is identified by its address and outlives the
-  // pool. `robot`: of a local controller, -1 otherwise. Another `copy` is another instance. Throws PluginFault.
-  Instance& get(const PluginUse& use, std::int32_t robot, std::uint32_t copy = 0);
+  // pool. `robot`: of a local controller, -1 otherwise. Throws PluginFault.
+  Instance& get(const PluginUse& use, std::int32_t robot);
 
   // Destroys all instances: after an error, new ones are safer.
   void clear() { instances_.clear(); }
@@ -30,7 +30,6 @@ class InstancePool {
   struct Key {
     const PluginUse* use;  // only for identity: no result depends on the order of the keys
     std::int32_t robot;
-    std::uint32_t copy;
     auto operator<=>(const Key&) const = default;
   };
 

@@ -70,7 +70,6 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
                    nanoseconds(experiment_.limits.step_time_s));
   };
   central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
-  if (asks_for(use.info, DMRP_DRAFT_PEOPLE_FUTURE)) foresee_people(combination, pool, seed);
   for (std::uint32_t i = 0; i < robot_count; ++i) {
     Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
     controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed),
@@ -85,21 +84,14 @@ void TrialPlugins::start_controllers(const Combination& combination, InstancePoo
 }
 
 void TrialPlugins::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  pedestrian_model_ = &start_crowd(combination, pool, seed, annotated_trace_, 0);
+  pedestrian_model_ = &start_crowd(combination, pool, seed, annotated_trace_);
   crowd_.emplace(*pedestrian_model_, world_, nanoseconds(experiment_.limits.step_time_s));
 }
 
-// By another instance of the model, which starts as that of the trial does and annotates nothing.
-void TrialPlugins::foresee_people(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  if (combination.pedestrian_model >= 0) foreseeing_model_ = &start_crowd(combination, pool, seed, nullptr, 1);
-  people_future_ =
-      std::make_shared<PeopleFuture>(variant_, seed, foreseeing_model_, nanoseconds(experiment_.limits.step_time_s));
-}
-
 Instance& TrialPlugins::start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
-                                    core::TraceEncoder* annotated_trace, std::uint32_t copy) {
+                                    core::TraceEncoder* annotated_trace) {
   const PluginUse& use = experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)];
-  Instance& model = pool.get(use, DMRP_NO_ROBOT, copy);
+  Instance& model = pool.get(use, DMRP_NO_ROBOT);
   offer(model, DMRP_KIND_PEDESTRIAN_MODEL, annotated_trace);
   model.start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
               nanoseconds(experiment_.limits.step_time_s));
@@ -124,10 +116,9 @@ void TrialPlugins::offer_to_controller(Instance& instance, std::uint32_t first_r
   std::vector<std::shared_ptr<RobotSensors>> sensors(first_robot);
   for (std::uint32_t i = 0; i < robot_count; ++i) sensors.push_back(controllers_[first_robot + i].sensors);
   sensor_extensions_.push_back(std::make_shared<SensorExtensions>(std::move(sensors)));
-  instance.offer([annotations = std::weak_ptr(annotations_.back()), sensors = std::weak_ptr(sensor_extensions_.back()),
-                  future = std::weak_ptr(people_future_)](std::string_view id) -> const void* {
+  instance.offer([annotations = std::weak_ptr(annotations_.back()),
+                  sensors = std::weak_ptr(sensor_extensions_.back())](std::string_view id) -> const void* {
     if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
-    if (const auto here = future.lock(); here && id == DMRP_DRAFT_PEOPLE_FUTURE) return here->extension();
     const auto here = sensors.lock();
     return here ? here->extension(id) : nullptr;
   });
@@ -161,7 +152,6 @@ void TrialPlugins::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> 
 }
 
 void TrialPlugins::sense() {
-  if (people_future_) people_future_->advance(world_.t_ns());
   for (std::uint32_t i = 0; i < controllers_.size(); ++i)
     if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) {
       controllers_[i].sensors->tick();
@@ -267,7 +257,6 @@ void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
     if (central_) break;
   }
   end_of(pedestrian_model_);
-  end_of(foreseeing_model_);
   // found late: any plugin of the trial can have done it
   for (const Instance* instance :
        {pedestrian_model_, planner_, controllers_.empty() ? nullptr : controllers_[0].instance})

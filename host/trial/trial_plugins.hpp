@@ -22,7 +22,6 @@
 #include "host/trial/crowd_model.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/instance_pool.hpp"
-#include "host/trial/people_future.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
@@ -95,9 +94,8 @@ class TrialPlugins {
   void start_planner(InstancePool& pool, std::uint64_t seed);
   void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
-  void foresee_people(const Combination& combination, InstancePool& pool, std::uint64_t seed);
   Instance& start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
-                        core::TraceEncoder* annotated_trace, std::uint32_t copy);
+                        core::TraceEncoder* annotated_trace);
 
   core::Lidar& lidar_of(std::uint32_t robot);
 
@@ -135,10 +133,8 @@ class TrialPlugins {
   std::vector<dmrp_observation> observations_;  // of control_all(), as the next two
   OutputArray<dmrp_command> commands_;
   std::vector<std::optional<dmrp_twist>> twists_;
-  std::optional<CrowdModel> crowd_;              // of pedestrian_model_
-  Instance* foreseeing_model_ = nullptr;         // of people_future_
-  std::shared_ptr<PeopleFuture> people_future_;  // nullptr if the controller does not ask for it
-  std::vector<dmrp_vec2> at_rest_;               // without a model; parallel to world_.people()
+  std::optional<CrowdModel> crowd_;  // of pedestrian_model_
+  std::vector<dmrp_vec2> at_rest_;   // without a model; parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };
 

@@ -6,7 +6,6 @@
 #include "controllers/e3mop/e3mop.hpp"
 #include "controllers/mpc/mpc.hpp"
 #include "controllers/mppi/mppi.hpp"
-#include "controllers/oracle/oracle.hpp"
 #include "controllers/orca/orca.hpp"
 #include "controllers/pure_pursuit/pure_pursuit.hpp"
 #include "controllers/stop_and_wait/stop_and_wait.hpp"
@@ -14,4 +13,4 @@
 
 DMRP_PLUGINS(dmrp::controllers::PurePursuit, dmrp::controllers::Dwa, dmrp::controllers::Teb, dmrp::controllers::Mpc,
              dmrp::controllers::E3mop, dmrp::controllers::StopAndWait, dmrp::controllers::Mppi,
-             dmrp::controllers::OrcaController, dmrp::controllers::Oracle)
+             dmrp::controllers::OrcaController)

@@ -14,7 +14,6 @@
 #include "core/execution/progress.hpp"
 #include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/people_future.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
@@ -40,28 +39,13 @@ dmrp_path path_of(const std::vector<dmrp_waypoint>& waypoints) {
   return {sizeof(dmrp_path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0, waypoints.data()};
 }
 
-host::Instance& start_people(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t copy) {
-  host::Instance& model = pool.get(trial.experiment.pedestrian_models[0], DMRP_NO_ROBOT, copy);
+host::Instance& start_people(const TrialUnderTest& trial, host::InstancePool& pool) {
+  host::Instance& model = pool.get(trial.experiment.pedestrian_models[0], DMRP_NO_ROBOT);
   model.offer([grids = trial.variant.walking_grids](std::string_view id) -> const void* {
     return id == DMRP_EXT_WALKING_GRID ? grids->extension() : nullptr;
   });
   model.start(trial.variant.view.world(), instance_seed(trial.seed, "pedestrian_model", 0), budget_ns);
   return model;
-}
-
-// For a controller that needs it; nullptr for others. Too large to record: a replay computes it again.
-std::unique_ptr<host::PeopleFuture> foresee_people(const TrialUnderTest& trial, host::InstancePool& pool) {
-  const std::vector<std::string>& needs = trial.experiment.local_controllers[0].info.needs;
-  if (std::find(needs.begin(), needs.end(), DMRP_DRAFT_PEOPLE_FUTURE) == needs.end()) return nullptr;
-  return std::make_unique<host::PeopleFuture>(trial.variant, trial.seed, &start_people(trial, pool, 1), budget_ns);
-}
-
-// What a controller gets: the future of the people, and the rest from `perception`.
-auto extensions_of(Perception& perception, const host::PeopleFuture* future) {
-  return [&perception, future](const char* id) -> const void* {
-    if (future && id == std::string_view(DMRP_DRAFT_PEOPLE_FUTURE)) return future->extension();
-    return perception.extension(id);
-  };
 }
 
 // One robot while its trial is recorded.
@@ -96,12 +80,11 @@ class Recording {
         referee_(world_, *trial.variant.planning_grids, {}, trial.seed),
         places_(world_.robots().size()),
         motions_(world_.people().size()),
-        velocities_(world_.people().size()),
-        future_(foresee_people(trial, pool)) {
+        velocities_(world_.people().size()) {
     result_.tapes.resize(world_.robots().size());
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) start_driver(i, pool);
     plan(pool);
-    if (!velocities_.empty()) people_ = &start_people(trial, pool, 0);
+    if (!velocities_.empty()) people_ = &start_people(trial, pool);
   }
 
   RecordedTrial run() {
@@ -136,7 +119,7 @@ class Recording {
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();
-    driver.controller->offer(extensions_of(driver.recorder, future_.get()));
+    driver.controller->offer([&driver](const char* id) { return driver.recorder.extension(id); });
     driver.controller->start(trial_.variant.view.world(), instance_seed(trial_.seed, "local_controller", robot),
                              budget_ns);
   }
@@ -162,7 +145,6 @@ class Recording {
   }
 
   void control() {
-    if (future_) future_->advance(world_.t_ns());
     for (std::uint32_t i = 0; i < drivers_.size(); ++i)
       if (world_.robots()[i].state == DMRP_ROBOT_ACTIVE) drivers_[i]->sensors->tick();
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
@@ -233,7 +215,6 @@ class Recording {
   std::vector<core::CoursePlace> places_;
   std::vector<dmrp_motion> motions_;
   std::vector<dmrp_vec2> velocities_;
-  std::unique_ptr<host::PeopleFuture> future_;
   std::vector<std::unique_ptr<Driver>> drivers_;
   host::Instance* people_ = nullptr;
   RecordedTrial result_;
@@ -249,10 +230,9 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
               bool listens) {
   pool.clear();
   Player player(listens);
-  const std::unique_ptr<host::PeopleFuture> future = foresee_people(trial, pool);
   host::Instance& controller = pool.get(trial.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
   const auto table = controller.table<dmrp_local_controller>();
-  controller.offer(extensions_of(player, future.get()));
+  controller.offer([&player](const char* id) { return player.extension(id); });
   controller.start(trial.variant.view.world(), instance_seed(trial.seed, "local_controller", robot), budget_ns);
 
   Replay replay;
@@ -260,7 +240,6 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
   replay.allocations.reserve(tape.size());
   for (const Frame& frame : tape) {
     player.read_from(frame);
-    if (future) future->advance(frame.observation.t_ns);
     if (!frame.path.empty()) {
       const dmrp_path path = path_of(frame.path);
       const dmrp_path_update update = {sizeof(update), robot, 1, &path};

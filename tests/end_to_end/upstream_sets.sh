@@ -9,8 +9,7 @@ sets=$2/plugins/controllers/parameter_sets
 "$host" plugins --json | awk -F'"' '
   $2 == "id" { id = $4; sub(/.*\./, "", id) }
   $2 == "key" { key = $4 }
-  $2 == "doc" && $4 ~ /^departure: / { print id, key }' >"$scratch/all"
-grep -v '^oracle ' "$scratch/all" | sort >"$scratch/departures"  # the oracle has no original
+  $2 == "doc" && $4 ~ /^departure: / { print id, key }' | sort >"$scratch/departures"
 (($(wc -l <"$scratch/departures") >= 20)) || fail "departures: $(<"$scratch/departures")"
 
 for file in "$sets"/upstream/*.toml; do

@@ -38,7 +38,6 @@ class ControllerCalls {
     for (std::uint32_t i = 0; i < driven_; ++i)
       if (stage_.world.robots()[i].state == DMRP_ROBOT_ACTIVE) active.push_back(i);
     if (active.empty()) return end();
-    extensions_.foresee_people();
     for (const std::uint32_t robot : active) {
       extensions_.sensors(robot).tick();
       if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) set_path(robot, path);

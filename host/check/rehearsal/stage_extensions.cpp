@@ -29,13 +29,7 @@ StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Sta
       sensors_(sensors_of(stage, lidar_, robots)),
       sensor_extensions_(sensors_),
       grown_(stage.settings.grown_extension_bytes) {
-  if (requires_extension(info, DMRP_DRAFT_PEOPLE_FUTURE))
-    people_future_.emplace(stage.variant, 1, nullptr, stage_budget_ns);
   instance.offer([this](std::string_view id) { return find(id); });
-}
-
-void StageExtensions::foresee_people() {
-  if (people_future_) people_future_->advance(stage_.world.t_ns());
 }
 
 const void* StageExtensions::find(std::string_view id) {
@@ -44,7 +38,6 @@ const void* StageExtensions::find(std::string_view id) {
 }
 
 const void* StageExtensions::own(std::string_view id) {
-  if (id == DMRP_DRAFT_PEOPLE_FUTURE) return people_future_ ? people_future_->extension() : nullptr;
   if (id == DMRP_EXT_ANNOTATE) return info_.kind == DMRP_KIND_METRIC ? nullptr : annotations_.extension();
   if (id == DMRP_EXT_WALKING_GRID)
     return info_.kind == DMRP_KIND_PEDESTRIAN_MODEL || info_.kind == DMRP_KIND_METRIC

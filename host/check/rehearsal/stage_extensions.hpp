@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "host/check/rehearsal/stage.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/trial/annotations.hpp"
-#include "host/trial/people_future.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "host/trial/sensor_extensions.hpp"
 
@@ -26,9 +24,6 @@ class StageExtensions {
   StageExtensions(Instance& instance, const PluginInfo& info, Stage& stage, std::uint32_t robots);
   StageExtensions(const StageExtensions&) = delete;
   StageExtensions& operator=(const StageExtensions&) = delete;
-
-  // At the beginning of a control tick.
-  void foresee_people();
 
   RobotSensors& sensors(std::uint32_t robot) { return *sensors_[robot]; }
 
@@ -43,7 +38,6 @@ class StageExtensions {
   core::Lidar lidar_;
   std::vector<std::shared_ptr<RobotSensors>> sensors_;
   SensorExtensions sensor_extensions_;
-  std::optional<PeopleFuture> people_future_;  // of people who stand; if the instance requires it
   GrownExtensions grown_;
 };
 

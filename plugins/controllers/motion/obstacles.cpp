@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/segment.hpp>
@@ -168,21 +167,7 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
 }
 
 Vec2 displacement(const Obstacle& obstacle, double ahead_s) {
-  assert(!obstacle.way || (obstacle.way_count > 0 && obstacle.way_period_s > 0.0));
-  if (!obstacle.way) return ahead_s * obstacle.velocity;
-  const double periods = ahead_s / obstacle.way_period_s;
-  const std::uint32_t last = obstacle.way_count - 1;
-  if (!(periods < last)) return obstacle.way[last] + (ahead_s - last * obstacle.way_period_s) * obstacle.velocity;
-  const auto before = static_cast<std::uint32_t>(periods);
-  return toolkit::lerp(obstacle.way[before], obstacle.way[before + 1], periods - before);
-}
-
-Vec2 velocity_at(const Obstacle& obstacle, double ahead_s) {
-  if (!obstacle.way) return obstacle.velocity;
-  const double periods = ahead_s / obstacle.way_period_s;
-  if (!(periods < obstacle.way_count - 1)) return obstacle.velocity;
-  const auto before = static_cast<std::uint32_t>(periods);
-  return (obstacle.way[before + 1] - obstacle.way[before]) / obstacle.way_period_s;
+  return ahead_s * obstacle.velocity;
 }
 
 double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s) {

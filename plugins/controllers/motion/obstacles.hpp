@@ -10,7 +10,7 @@
 
 namespace dmrp::controllers {
 
-// A point, a segment or a convex polygon, enlarged by a radius. Moves at constant velocity, or along a foreseen way.
+// A point, a segment or a convex polygon, enlarged by a radius. Moves at constant velocity.
 struct Obstacle {
   const Vec2* vertices = nullptr;  // counter-clockwise; owned by an ObstacleSet
   std::uint32_t vertex_count = 0;  // 1: a point; 2: a segment
@@ -20,17 +20,10 @@ struct Obstacle {
   double reach_m = 0.0;        // ... of this radius
   bool is_agent = false;       // a tracked robot or person
   bool is_robot = false;       // a tracked robot
-  // Displacements after 0, 1, 2 ... periods, one at least; beyond the last, `velocity` holds. NULL: `velocity` alone.
-  const Vec2* way = nullptr;
-  std::uint32_t way_count = 0;
-  double way_period_s = 0.0;
 };
 
 // How far the obstacle will have moved.
 Vec2 displacement(const Obstacle& obstacle, double ahead_s);
-
-// Its velocity at that time.
-Vec2 velocity_at(const Obstacle& obstacle, double ahead_s);
 
 // The signed distance between two outlines and its derivatives.
 struct Separation {

@@ -168,7 +168,6 @@ const std::vector<Obstacle>& Mpc::gather_obstacles(const Observation& now, const
     if (!obstacle.is_agent) obstacle.radius_m += map.resolution_m();
     if (!enable_dynamic_obstacles) obstacle.velocity = {0.0, 0.0};
   }
-  foresee(now, obstacles_);
   return obstacles_;
 }
 

@@ -18,7 +18,7 @@
 
 namespace dmrp::controllers {
 
-class Mpc : public PathController {
+class Mpc final : public PathController {
  public:
   static Descriptor describe();
 
@@ -101,11 +101,6 @@ class Mpc : public PathController {
 
   Status start(const Start& start) override;
   void set_path(Path path, std::uint64_t revision) override;
-
- protected:
-  // Replaces the prediction of agents, and may add some. The agents of the observation are the last obstacles, in their
-  // order.
-  virtual void foresee(const Observation& /*now*/, std::vector<Obstacle>& /*obstacles*/) {}
 
  private:
   Status control(const Observation& now, Command& command) override;

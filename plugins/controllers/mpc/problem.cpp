@@ -65,12 +65,11 @@ Constraint keep_away(const Problem& problem, const Obstacle& obstacle, std::size
   c.gradient[at_x] = -apart.gradient.x;
   c.gradient[at_y] = -apart.gradient.y;
   c.gradient[at_theta] = -apart.gradient_theta;
-  const Vec2 velocity = velocity_at(obstacle, ahead_s);
-  c.gradient[at_dt] = stages_ahead * toolkit::dot(apart.gradient, velocity);
+  c.gradient[at_dt] = stages_ahead * toolkit::dot(apart.gradient, obstacle.velocity);
   const Vec2 relative = Vec2{w[at_x], w[at_y]} - displacement(obstacle, ahead_s);
   c.curvature = corner_curvature(*problem.footprint, relative, obstacle, apart);
   const Vec2 tangent = toolkit::perpendicular(apart.gradient);
-  c.tangent = {tangent.x, tangent.y, -stages_ahead * toolkit::dot(tangent, velocity)};
+  c.tangent = {tangent.x, tangent.y, -stages_ahead * toolkit::dot(tangent, obstacle.velocity)};
   return c;
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("mistakes in an experiment file") {
       {"\"test.controller\"", "\"test.psychic\"",
        "experiment.toml:15:7: test.psychic needs the extension org.example.telepathy/1, which this host does not "
        "offer to a local_controller (offered: dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, "
-       "dmrp.distance_field/1, dmrp.obstacle_clusters/1, draft/dmrp.people_future/1, draft/dmrp.timing/1)"},
+       "dmrp.distance_field/1, dmrp.obstacle_clusters/1, draft/dmrp.timing/1)"},
       {"[[local_controller]]", "[[global_planner]]\nuse = \"test.planner\"\n[[local_controller]]",
        "experiment.toml:15:7: two of [[global_planner]] are called 'Planner': give one another 'label'"},
       {"[[local_controller]]",

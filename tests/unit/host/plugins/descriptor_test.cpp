@@ -342,8 +342,7 @@ TEST_CASE("extensions in `requires` and `uses` that the host lacks are told with
     CHECK(missing_extension(info_of(library, "test.odd.controller")) ==
           "needs the extension dmrp.lidr/1, which this host does not offer to a local_controller (offered: "
           "dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, dmrp.distance_field/1, dmrp.obstacle_clusters/1, "
-          "draft/dmrp.people_future/1, draft/dmrp.timing/1) (did "
-          "you mean 'dmrp.lidar/1'?)");
+          "draft/dmrp.timing/1) (did you mean 'dmrp.lidar/1'?)");
   }
   SECTION("required, by a plugin of another kind") {
     dmrp_descriptor& metric = odd.descriptor(odd_metric);

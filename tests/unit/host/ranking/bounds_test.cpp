@@ -147,10 +147,10 @@ use   = "a.c"
 label = "third"
 [[local_controller]]
 use   = "a.d"
-label = "Oracle"
+label = "Seer"
 bound = "upper"
 )");
   CHECK(bounds.lower == "Stop \"and\" wait");
-  CHECK(bounds.upper == "Oracle");
+  CHECK(bounds.upper == "Seer");
   CHECK(bounds_of("").lower.empty());
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Plugins that check the inputs from the host, and return an error if they break the contract.
-#include <dmrp/draft/people_future.h>
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
@@ -10,19 +9,11 @@
 #include <chrono>
 #include <cmath>
 #include <dmrp/plugin.hpp>
-#include <dmrp/toolkit/random.hpp>
 #include <limits>
-#include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
-
-template <>
-struct dmrp::ExtensionId<dmrp_people_future> {
-  static constexpr const char* value = DMRP_DRAFT_PEOPLE_FUTURE;
-};
 
 namespace {
 
@@ -178,73 +169,6 @@ class CarefulController final : public dmrp::LocalController {
   double progress_m_ = 0.0;
 };
 
-// People who stroll along x as their seed has it.
-class StrollingPeople final : public dmrp::PedestrianModel {
- public:
-  static dmrp::Descriptor describe() { return dmrp::Descriptor("test.people.strolling", "Strolling", "1.0.0"); }
-  dmrp::Param<bool> shy = param("shy", false).doc("stand while there are robots");
-
-  dmrp::Status start(const dmrp::Start& now) override {
-    stream_.emplace(now.seed, "stroll", 0);
-    return dmrp::Status::ok;
-  }
-  dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
-    for (std::size_t i = 0; i < crowd.people.size(); ++i) {
-      const double speed = stream_->uniform(-0.5, 1.5);
-      motions[i].velocity = {shy && !crowd.robots.empty() ? 0.0 : speed, 0.0};
-    }
-    return dmrp::Status::ok;
-  }
-
- private:
-  std::optional<dmrp::toolkit::Stream> stream_;
-};
-
-// Compares the people that it sees with those that it was told of.
-class ToldController final : public dmrp::LocalController {
- public:
-  static dmrp::Descriptor describe() {
-    return dmrp::Descriptor("test.controller.told", "Told", "1.0.0").needs(DMRP_DRAFT_PEOPLE_FUTURE);
-  }
-  dmrp::Param<bool> people_are_shy = param("people_are_shy", false).doc("they stand, and the told ones walk");
-
-  dmrp::Status start(const dmrp::Start&) override {
-    future_ = &extension<dmrp_people_future>();
-    expect(future_->last >= 50, "five seconds are told, and more");
-    told_.clear();
-    return dmrp::Status::ok;
-  }
-  void set_path(dmrp::Path, std::uint64_t) override {}
-  dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    expect(!future_->at(future_, future_->last + 1), "nothing is told of what is later");
-    for (const std::uint32_t ahead : {0u, 7u, future_->last}) {
-      const dmrp_people_frame& frame = *future_->at(future_, ahead);
-      expect(frame.t_ns == now.t_ns + ahead * now.dt_ns, "the time of a frame");
-      auto& people = told_[frame.t_ns];
-      people.clear();
-      for (const dmrp::Agent& person : dmrp::Span<dmrp::Agent>(frame.people, frame.count, frame.stride))
-        people[person.id] = person;
-    }
-    for (const dmrp::Agent& seen : now.agents)
-      if (seen.kind == DMRP_AGENT_PERSON) compare(seen, now.t_ns);
-    command.v_x = 0.5;
-    return dmrp::Status::ok;
-  }
-
- private:
-  void compare(const dmrp::Agent& seen, std::int64_t t_ns) const {
-    const auto& people = told_.at(t_ns);
-    const auto told = people.find(seen.id);
-    const bool is_there = told != people.end() && told->second.pose.x == seen.pose.x &&
-                          told->second.pose.y == seen.pose.y && told->second.velocity.x == seen.velocity.x;
-    expect(is_there || people_are_shy, "people are where they were told to be");
-    expect(!is_there || !people_are_shy || t_ns == 0, "the told people have gone on");
-  }
-
-  const dmrp_people_future* future_ = nullptr;
-  std::map<std::int64_t, std::map<std::uint64_t, dmrp::Agent>> told_;  // by time and id
-};
-
 // Tests what the sink of a metric accepts and refuses. Uses the C interface: the C++ layer would throw.
 class SinkMetric final : public dmrp::Metric {
  public:
@@ -314,4 +238,4 @@ class SinkMetric final : public dmrp::Metric {
 
 }  // namespace
 
-DMRP_PLUGINS(StraightPlanner, CarefulController, SinkMetric, StrollingPeople, ToldController)
+DMRP_PLUGINS(StraightPlanner, CarefulController, SinkMetric)
