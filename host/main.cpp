@@ -18,7 +18,7 @@
 #include "host/commands/command.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/plugins/library.hpp"
+#include "host/guests/nursery.hpp"
 #include "host/process/box.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
@@ -32,16 +32,12 @@ using namespace dmrp::host;
 
 // The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
-  if (argc == 4 && std::strcmp(argv[1], "probe") == 0) run_probe(argv[2], std::atoi(argv[3]));
-  if (argc >= 10 && std::strcmp(argv[1], "worker") == 0)
-    return run_worker({argv[2],
-                       static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
-                       {std::atoll(argv[4]), std::strcmp(argv[5], "processes") == 0},
-                       argv[6],
-                       std::atoi(argv[7]),
-                       std::atoi(argv[8]),
-                       std::atoi(argv[9]),
-                       {argv + 10, argv + argc}});
+  if (argc == 4 && std::strcmp(argv[1], "nursery") == 0) return Nursery::run(std::atoi(argv[2]), std::atoi(argv[3]));
+  if (argc == 9 && std::strcmp(argv[1], "worker") == 0)
+    return run_worker({argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
+                       static_cast<unsigned>(std::strtoul(argv[4], nullptr, 10)),
+                       static_cast<unsigned>(std::strtoul(argv[5], nullptr, 10)), argv[6], std::atoi(argv[7]),
+                       std::atoi(argv[8])});
   return std::nullopt;
 }
 

@@ -65,6 +65,15 @@ TraceSpool::TraceSpool(const std::filesystem::path& path) : path_(path), file_(c
   std::filesystem::remove(path);
 }
 
+TraceSpool::TraceSpool(int descriptor)
+    : path_("the spool of a trace"), file_(fdopen(descriptor, "rb")), is_written_(true) {
+  if (!file_) throw_file_error(path_);
+}
+
+int TraceSpool::descriptor() const {
+  return fileno(file_.get());
+}
+
 // The previous record of the kind, resized to the length of the next one; new bytes are zero.
 TraceBytes& TraceSpool::last_of_kind(const std::uint8_t* prefix) {
   TraceBytes& last = last_.at(prefix[sizeof(std::uint32_t)]);

@@ -21,11 +21,18 @@ class TraceSpool {
  public:
   // `path`: a new file in a folder with enough space; it is unlinked at once.
   explicit TraceSpool(const std::filesystem::path& path);
+
+  // A spool that another process has written, to be read; takes the descriptor over. Processes that have it from one another
+  // read it in turns: each begins with rewind().
+  explicit TraceSpool(int descriptor);
+
   TraceSpool(const TraceSpool&) = delete;
   TraceSpool& operator=(const TraceSpool&) = delete;
 
   // A whole record, with its length and kind.
   void write(std::span<const std::uint8_t> record);
+
+  int descriptor() const;
 
   // Ends writing. The next record to read is the first.
   void rewind();

@@ -6,6 +6,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/guests/probe.hpp"
 
 namespace dmrp::host {
 
@@ -48,7 +49,7 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
 }
 
 void check_bundle(const Experiment& original, const fs::path& folder) {
-  const Experiment read = load_experiment(folder / "experiment.toml", 0);
+  const Experiment read = load_experiment(folder / "experiment.toml", 0, &probe_library);
   const fs::path root = fs::canonical(folder);
   for (const ScenarioVariant& variant : read.scenarios)
     for (const fs::path& file : variant.files)

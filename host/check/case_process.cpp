@@ -10,6 +10,7 @@
 
 #include "host/errors/escaped_text.hpp"
 #include "host/process/box.hpp"
+#include "host/process/call_note.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/memory_file.hpp"
 #include "host/process/orphans.hpp"

@@ -10,6 +10,7 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plugins/library.hpp"
 
 namespace dmrp::host {

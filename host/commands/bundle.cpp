@@ -10,6 +10,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/read_file.hpp"
+#include "host/guests/probe.hpp"
 #include "host/results/database.hpp"
 #include "host/results/sqlite.hpp"
 #include "host/run/run_description.hpp"
@@ -65,7 +66,7 @@ fs::path folder_of(const BundleOptions& options, const std::string& name) {
 }
 
 void bundle_experiment(const BundleOptions& options) {
-  const Experiment experiment = load_experiment(options.source, 0);
+  const Experiment experiment = load_experiment(options.source, 0, &probe_library);
   const std::uint64_t trials = combinations(experiment).size() * experiment.trials;
   const fs::path folder = folder_of(options, experiment.name);
   const Manifest manifest = manifest_of(experiment, {}, trials, {});
@@ -85,7 +86,7 @@ void check_new_bundle(const fs::path& out) {
 }
 
 void bundle_run(const fs::path& run, const fs::path& out, bool with_plugins) {
-  const Experiment experiment = load_experiment(run / "effective.toml", 0);
+  const Experiment experiment = load_experiment(run / "effective.toml", 0, &probe_library);
   const std::string original = read_file(run / "experiment.toml", (run / "experiment.toml").string());
   const Manifest manifest = read_manifest(run / "manifest.json");
   if (const auto keys = differences(manifest.identity, identity_of(experiment)); !keys.empty())

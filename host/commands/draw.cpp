@@ -16,6 +16,7 @@
 #include "host/commands/figure_file.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plan/plan_task.hpp"
 #include "host/plan/planner_process.hpp"
 #include "host/process/fault_kind.hpp"
@@ -180,7 +181,8 @@ int draw_command(const DrawOptions& options) {
   if (options.agents > 0) use_random_tasks(experiment, options.agents, options.seed, wishes);
   if (!options.planner.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots to plan for (--agents draws some)", options.scenario));
-  if (!options.planner.empty()) add_planner(experiment, options.planner, options.plugins, options.settings);
+  if (!options.planner.empty())
+    add_planner(experiment, options.planner, options.plugins, options.settings, &probe_library);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);
   toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title, 800.0, left_margin_px);

@@ -9,7 +9,7 @@
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/evaluate/evaluation.hpp"
-#include "host/evaluate/measure_process.hpp"
+#include "host/evaluate/measure_stored.hpp"
 #include "host/results/csv.hpp"
 #include "host/results/database.hpp"
 #include "host/results/trace_path.hpp"

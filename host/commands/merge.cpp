@@ -88,6 +88,27 @@ void check_apart(const std::vector<Part>& parts) {
         throw InputError(fmt::format("{}: trial {} is in {} already", part.shown, trial.id, owner->second->shown));
 }
 
+// Trial k is repetition k / C of combination k % C: all trials of a combination carry its labels, and all of a scenario in
+// a repetition the seed. A row that does not was changed after its run.
+void check_rows(const std::vector<Part>& parts) {
+  std::uint64_t planned = 0;
+  for (const Part& part : parts) planned += part.manifest.experiment.trials_planned;
+  const std::uint64_t count = planned / parts.front().manifest.experiment.repetitions;  // of combinations
+  if (count == 0) return;
+  std::map<std::uint64_t, const TrialRecord*> first;
+  std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> seeds;
+  for (const Part& part : parts)
+    for (const TrialRecord& trial : part.trials) {
+      const auto [known, is_new] = first.emplace(trial.id % count, &trial);
+      TrialRecord place = *known->second;
+      place.repetition = static_cast<std::uint32_t>(trial.id / count);
+      place.seed = seeds.emplace(std::pair(trial.scenario, place.repetition), trial.seed).first->second;
+      if (const std::string why = misplacement(trial, place); !why.empty())
+        throw InputError(fmt::format("{}: trial {} does not fit trial {}, one of them was changed after its run: {}",
+                                     part.shown, trial.id, known->second->id, why));
+    }
+}
+
 // A shard that is missing would look like an experiment with fewer repetitions.
 void check_whole(const std::vector<Part>& parts) {
   const Part& first = parts.front();
@@ -183,6 +204,7 @@ int merge_command(const MergeOptions& options) {
   for (const Part& part : parts) check_same(parts.front(), part);
   check_apart(parts);
   check_whole(parts);
+  check_rows(parts);
   check_plans(parts);
   if (std::error_code ignored; fs::exists(options.out, ignored) && !fs::is_empty(options.out, ignored))
     throw InputError(fmt::format("{}: exists already and is not empty", options.out.string()));

@@ -12,6 +12,7 @@
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
+#include "host/guests/probe.hpp"
 #include "host/maps/drawn_tasks.hpp"
 #include "host/plan/plan_figures.hpp"
 #include "host/plan/plan_task.hpp"
@@ -209,7 +210,7 @@ int plan_command(const PlanOptions& options) {
   if (options.map.empty() && options.agents > 0) use_random_tasks(experiment, options.agents, options.seed);
   if (options.map.empty() && experiment.scenarios[0].scenario.robots.empty())
     throw InputError(fmt::format("scenario '{}' lists no robots", options.scenario));
-  add_planner(experiment, options.planner, options.plugins, options.settings);
+  add_planner(experiment, options.planner, options.plugins, options.settings, &probe_library);
   for (const std::string& text : experiment.warnings) warn(text);
   const auto task = options.map.empty() ? scenario_task(experiment) : task_on_map(options, experiment);
 

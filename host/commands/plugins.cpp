@@ -9,6 +9,7 @@
 #include "host/commands/plugins_json.hpp"
 #include "host/commands/plugins_markdown.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plugins/library.hpp"
 #include "host/plugins/parameter_text.hpp"
 

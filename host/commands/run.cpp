@@ -12,6 +12,7 @@
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/sync_directory.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plan/check_planners.hpp"
 #include "host/process/box.hpp"
 #include "host/program/executable.hpp"
@@ -148,7 +149,7 @@ int run_command(const RunOptions& options) {
   if (options.debugged) return debug_trial(options.experiment, options.trials, *options.debugged);
   signal(SIGPIPE, SIG_IGN);  // results are kept although nobody reads what is printed
   check_new_bundle(options.bundle);
-  const Experiment experiment = load_experiment(options.experiment, options.trials);
+  const Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
   check_planners(experiment, options.experiment);
   if (!options.quiet)
     for (const std::string& warning : experiment.warnings) warn(warning);

@@ -4,13 +4,14 @@
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plan/check_planners.hpp"
 
 namespace dmrp::host {
 namespace {
 
 int validate_command(const std::filesystem::path& file) {
-  const Experiment experiment = load_experiment(file, 0);
+  const Experiment experiment = load_experiment(file, 0, &probe_library);
   check_planners(experiment, file);
   for (const std::string& warning : experiment.warnings) warn(warning);
   const std::size_t count = combinations(experiment).size();

@@ -10,11 +10,13 @@
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/guests/probe.hpp"
 #include "host/results/database.hpp"
 #include "host/run/run_description.hpp"
 #include "host/run/run_directory.hpp"
 #include "host/verify/stored_digests.hpp"
 #include "host/verify/trial_differences.hpp"
+#include "host/workers/open_trial.hpp"
 #include "host/workers/stored_plan.hpp"
 #include "host/workers/supervisor.hpp"
 
@@ -55,6 +57,28 @@ class TemporaryFolder {
 // What ended by a fault or by a wall-clock limit may end otherwise.
 bool is_comparable(const TrialRecord& trial) {
   return trial.repeatable && trial.faults.empty() && trial.outcome != trial_outcome::skipped;
+}
+
+// Whether the rows are those of the run: each where the experiment has it, and none missing.
+bool has_its_rows(const Experiment& experiment, const Shard& shard, std::span<const TrialRecord> trials) {
+  bool whole = true;
+  std::uint64_t found = 0;
+  const std::uint64_t all = combinations(experiment).size() * experiment.trials;
+  const auto is_of_shard = [&](std::uint64_t trial) {
+    return trial < all && (shard.count == 0 || trial % shard.count == shard.index);
+  };
+  for (const TrialRecord& trial : trials) {
+    const std::string why =
+        is_of_shard(trial.id) ? misplacement(trial, row_of(experiment, trial.id)) : "is none of this run";
+    if (!why.empty()) fmt::print("trial {}: {}\n", trial.id, why);
+    if (!why.empty()) whole = false;
+    if (is_of_shard(trial.id) && trial.outcome != trial_outcome::skipped) ++found;
+  }
+  std::uint64_t planned = 0;
+  for (std::uint64_t trial = 0; trial < all; ++trial)
+    if (is_of_shard(trial)) ++planned;
+  if (found < planned) fmt::print("{} of {} trials are missing\n", planned - found, planned);
+  return whole && found == planned;
 }
 
 // In random order: results must not depend on what a worker ran before.
@@ -127,10 +151,11 @@ int verify_command(const VerifyOptions& options) {
   const ResultsDatabase database = ResultsDatabase::open_read_only(directory / "results.sqlite");
   const StoredDigests digests(directory);
   const Manifest before = read_manifest(directory / "manifest.json");
-  const Experiment experiment = load_experiment(directory / "effective.toml", 0);
+  const Experiment experiment = load_experiment(directory / "effective.toml", 0, &probe_library);
   if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}), directory)) return exit_status::different;
 
   std::vector<TrialRecord> trials = database.trials_with_events_of("");
+  const bool whole = has_its_rows(experiment, before.experiment.shard, trials);
   const std::size_t others = std::erase_if(trials, [](const TrialRecord& trial) { return !is_comparable(trial); });
   if (others > 0) warn(plural(others, "trial") + " with faults, or not repeatable, cannot be compared");
   if (trials.empty()) throw InputError(fmt::format("{}: has no trial to compare", directory.string()));
@@ -140,7 +165,7 @@ int verify_command(const VerifyOptions& options) {
   if (rerun.run(trials) == RunEnding::interrupted) return exit_status::interrupted;
 
   std::size_t different = 0;
-  const std::vector<MetricColumn> metrics = database.metrics();
+  const std::vector<MetricColumn> metrics = columns_of(experiment);  // not as the file that is judged says
   for (const TrialRecord& trial : trials) {
     const std::vector<std::string> lines = differences_of(trial, digests.of(trial.id), rerun, metrics);
     for (const std::string& line : lines) fmt::print("trial {}: {}\n", trial.id, line);
@@ -150,7 +175,7 @@ int verify_command(const VerifyOptions& options) {
     fmt::print("{}: {} run again, equal to the bit\n", directory.string(), plural(trials.size(), "trial"));
   else
     fmt::print("{}: {} of {} differ\n", directory.string(), different, plural(trials.size(), "trial"));
-  return different == 0 ? exit_status::done : exit_status::different;
+  return different == 0 && whole ? exit_status::done : exit_status::different;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "host/experiment/read_parameters.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
+#include "host/guests/probe.hpp"
 #include "host/plugins/elf_file.hpp"
 #include "host/plugins/offered_extensions.hpp"
 #include "host/program/version.hpp"

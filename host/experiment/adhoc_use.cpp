@@ -48,12 +48,13 @@ std::vector<fs::path> candidate_libraries(const std::vector<std::string>& named,
   return files;
 }
 
-PluginUse find_planner(const std::string& id, const std::vector<std::string>& libraries, Experiment& experiment) {
+PluginUse find_planner(const std::string& id, const std::vector<std::string>& libraries, const PluginSource& source,
+                       Experiment& experiment) {
   std::vector<std::string> known;
   for (const fs::path& file : candidate_libraries(libraries, id)) {
     Probe probe;
     try {
-      probe = probe_library(file);
+      probe = source(file);
     } catch (const std::runtime_error& error) {
       throw InputError(file.string() + ": " + error.what());
     }
@@ -124,8 +125,8 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
 }
 
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
-                 const std::vector<std::string>& settings) {
-  PluginUse use = find_planner(id, libraries, experiment);
+                 const std::vector<std::string>& settings, const PluginSource& source) {
+  PluginUse use = find_planner(id, libraries, source, experiment);
   std::vector<ParameterValue> defaults;
   for (const ParameterSpec& spec : use.info.parameters) defaults.push_back(spec.fallback);
   use.parameters = adhoc_parameters(settings, "", use.info, std::move(defaults));

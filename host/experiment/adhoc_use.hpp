@@ -21,7 +21,7 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
 // Searches the planner `id` in `libraries`, then in the libraries of the plugin path. `settings`: key=value with TOML
 // values; bare words are strings. Throws InputError.
 void add_planner(Experiment& experiment, const std::string& id, const std::vector<std::string>& libraries,
-                 const std::vector<std::string>& settings);
+                 const std::vector<std::string>& settings, const PluginSource& source);
 
 // The complete table `values`, overridden by a parameter file ("": none; relative to the working directory, or a
 // shipped one) and then by `settings` (as above). Throws InputError.

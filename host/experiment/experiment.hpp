@@ -22,7 +22,7 @@ struct RunLimits {
   double planner_time_s = 60.0;  // wall time for one call of plan()
   double step_time_s = 1.0;      // for every other call
   double trial_wall_time_s = 600.0;
-  std::int64_t memory_mb = 4096;  // of a worker; 0: none
+  std::int64_t memory_mb = 4096;  // of a guest; 0: none
   bool processes = false;         // plugins that declare it may start processes
 };
 
@@ -93,14 +93,14 @@ std::uint64_t task_seed(const Experiment& experiment, const std::string& scenari
                         std::uint32_t repetition);
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);  // the world_seed() of a trial
 
-// Describes the plugins of a library: by a probe in a child process, or by loading the library.
+// Describes the plugins of a library: by a probe in a guest, or by loading the library.
 using PluginSource = std::function<Probe(const std::filesystem::path&)>;
 
 // Reads and checks an experiment. Every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
 // `tried_by`: for a source that loads libraries into this process. If the experiment leaves out what cannot be loaded, it
 // is called before the source, and fails in its place.
-Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials,
-                           const PluginSource& source = &probe_library, const PluginSource& tried_by = {});
+Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials, const PluginSource& source,
+                           const PluginSource& tried_by = {});
 
 // How effective_toml() writes the path of a library, of a scenario.toml or of a file that a parameter names.
 using FileName = std::function<std::string(const std::filesystem::path&)>;

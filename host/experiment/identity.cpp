@@ -102,7 +102,10 @@ std::string digest_of(const std::map<std::string, std::string>& identity) {
 
 std::string loaded_digest(const Experiment& experiment) {
   std::string all = digest_of(identity_of(experiment));
-  for (const LibraryUse& library : experiment.libraries) all += sha256_of_file(library.file);
+  for (const LibraryUse& library : experiment.libraries) {
+    all += sha256_of_file(library.file);
+    for (const std::string& object : library.objects) all += sha256_of_file(object);
+  }
   return sha256_of_bytes(all);
 }
 

@@ -43,7 +43,7 @@ Probe try_source(const PluginSource& source, const fs::path& file) {
   try {
     return source(file);
   } catch (const std::runtime_error& error) {  // a failure of the machine is none
-    return {{}, {}, error.what()};
+    return {{}, {}, {}, error.what()};
   }
 }
 
@@ -79,7 +79,7 @@ void read_library(const TomlDocument& document, const TomlValue& value, const Pl
   }
   for (const std::string& warning : probe.warnings)
     experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
-  experiment.libraries.push_back({name, file, probe.plugins});
+  experiment.libraries.push_back({name, file, probe.plugins, probe.objects});
   for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
 }
 

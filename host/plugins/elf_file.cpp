@@ -4,6 +4,8 @@
 #include <elf.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -72,6 +74,83 @@ class ElfFile {
   std::uint64_t size_ = 0;
 };
 
+bool names_folders(const Elf64_Dyn& entry) {
+  return entry.d_tag == DT_RUNPATH || entry.d_tag == DT_RPATH;
+}
+
+// What the loader maps, as it finds it: by program headers, not by sections, which nobody loads.
+class LoadedParts {
+ public:
+  LoadedParts(ElfFile& elf, const Elf64_Ehdr& head) : elf_(elf) {
+    for (unsigned i = 0; i < head.e_phnum; ++i) {
+      const auto part = elf.read<Elf64_Phdr>(head.e_phoff + std::uint64_t{i} * head.e_phentsize);
+      if (!part) break;
+      if (part->p_type == PT_LOAD) segments_.push_back(*part);
+      if (part->p_type == PT_NOTE) blanks_.push_back({part->p_offset, part->p_filesz});  // the build's number
+      if (part->p_type == PT_DYNAMIC) read_dynamic(*part);
+    }
+    // where the sections are, which a stripped file has elsewhere
+    constexpr std::uint64_t after_flags = offsetof(Elf64_Ehdr, e_shentsize);
+    blanks_.push_back({offsetof(Elf64_Ehdr, e_shoff), sizeof(head.e_shoff)});
+    blanks_.push_back({after_flags, sizeof(head) - after_flags});
+    blank_folders();
+  }
+
+  const std::vector<Elf64_Phdr>& segments() const { return segments_; }
+
+  // Without the folders in which libraries are searched.
+  const std::vector<Elf64_Dyn>& dynamic() const { return dynamic_; }
+
+  // Overwrites what may differ between two copies of a library.
+  void blank(const Elf64_Phdr& segment, std::string& content) const {
+    for (const Range& range : blanks_) {
+      const std::uint64_t begin = std::max(range.offset, segment.p_offset);
+      const std::uint64_t end = std::min(range.offset + range.bytes, segment.p_offset + content.size());
+      if (begin < end)
+        std::fill_n(content.begin() + static_cast<std::ptrdiff_t>(begin - segment.p_offset), end - begin, '\0');
+    }
+  }
+
+ private:
+  struct Range {
+    std::uint64_t offset;
+    std::uint64_t bytes;
+  };
+
+  void read_dynamic(const Elf64_Phdr& part) {
+    blanks_.push_back({part.p_offset, part.p_filesz});
+    for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn)) {
+      const auto entry = elf_.read<Elf64_Dyn>(part.p_offset + at);
+      if (!entry || entry->d_tag == DT_NULL) break;
+      if (names_folders(*entry))
+        folders_.push_back(entry->d_un.d_val);
+      else
+        dynamic_.push_back(*entry);
+      if (entry->d_tag == DT_STRTAB) strings_ = entry->d_un.d_ptr;
+    }
+  }
+
+  // A shorter text may stand in the place of a longer one, with zeros after it.
+  void blank_folders() {
+    for (const std::uint64_t folder : folders_)
+      for (const Elf64_Phdr& segment : segments_) {
+        const std::uint64_t address = strings_ + folder;
+        if (address < segment.p_vaddr || address >= segment.p_vaddr + segment.p_filesz) continue;
+        const std::uint64_t offset = segment.p_offset + (address - segment.p_vaddr);
+        const std::string rest = elf_.text(offset, segment.p_filesz - (address - segment.p_vaddr));
+        const std::size_t end = std::min(rest.find_first_not_of('\0', rest.find('\0')), rest.size());
+        blanks_.push_back({offset, end});
+      }
+  }
+
+  ElfFile& elf_;
+  std::vector<Elf64_Phdr> segments_;
+  std::vector<Elf64_Dyn> dynamic_;
+  std::vector<std::uint64_t> folders_;  // in the table of strings
+  std::uint64_t strings_ = 0;
+  std::vector<Range> blanks_;
+};
+
 bool is_visible(const Elf64_Sym& symbol) {
   const unsigned binding = ELF64_ST_BIND(symbol.st_info);
   const unsigned visibility = ELF64_ST_VISIBILITY(symbol.st_other);
@@ -98,20 +177,18 @@ std::string why_not_loadable(const std::filesystem::path& file) {
 std::string code_digest(const std::filesystem::path& file) {
   ElfFile elf(file);
   const auto head = elf.read<Elf64_Ehdr>(0);
-  const auto section = [&](std::uint64_t i) {
-    return elf.read<Elf64_Shdr>(head->e_shoff + i * sizeof(Elf64_Shdr)).value_or(Elf64_Shdr{});
-  };
-  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_shnum == 0) return sha256_of_file(file);
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0) return sha256_of_file(file);
+  const LoadedParts parts(elf, *head);
   Sha256 hash;
-  for (unsigned i = 0; i < head->e_shnum; ++i) {
-    const Elf64_Shdr one = section(i);
-    const bool is_program = one.sh_type == SHT_PROGBITS || one.sh_type == SHT_INIT_ARRAY ||
-                            one.sh_type == SHT_FINI_ARRAY || one.sh_type == SHT_RELA;
-    if (!is_program || (one.sh_flags & SHF_ALLOC) == 0) continue;
-    hash.add(&one.sh_addr, sizeof(one.sh_addr));
-    const std::string content = elf.text(one.sh_offset, one.sh_size);
+  for (const Elf64_Phdr& segment : parts.segments()) {
+    std::string content = elf.text(segment.p_offset, segment.p_filesz);
+    parts.blank(segment, content);
+    for (const std::uint64_t number :
+         {segment.p_vaddr, segment.p_filesz, segment.p_memsz, std::uint64_t{segment.p_flags}})
+      hash.add(&number, sizeof(number));
     hash.add(content.data(), content.size());
   }
+  for (const Elf64_Dyn& entry : parts.dynamic()) hash.add(&entry, sizeof(entry));
   return hash.finish();
 }
 

@@ -23,7 +23,7 @@ struct ExportedSymbol {
 std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file);
 
 // SHA-256, hexadecimal, of all that is loaded of it, but for what names folders and builds: equal for a library in the
-// build tree, installed (another RUNPATH) and stripped. Of the whole file if it has no sections.
+// build tree, installed (another RUNPATH) and stripped. Of the whole file if it is no ELF file.
 std::string code_digest(const std::filesystem::path& file);
 
 }  // namespace dmrp::host

@@ -2,8 +2,10 @@
 #include "host/plugins/library.hpp"
 
 #include <fmt/format.h>
+#include <link.h>
 
 #include <boost/dll/shared_library.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"
@@ -32,6 +34,21 @@ std::string loader_message(const std::exception& error, const std::filesystem::p
   // Boost says "... (dlerror system message: WHY): Bad file descriptor [system:9]" whatever the reason
   if (const auto end = text.rfind("): "); end != std::string::npos) text.erase(end);
   return text;
+}
+
+// The files of all shared objects of this process.
+std::set<std::string> loaded_objects() {
+  std::set<std::string> all;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* out) {
+        std::error_code error;
+        const auto file =
+            std::filesystem::canonical(info->dlpi_name, error);  // not the program, and what the kernel maps
+        if (!error) static_cast<std::set<std::string>*>(out)->insert(file);
+        return 0;
+      },
+      &all);
+  return all;
 }
 
 dmrp_entry copy_entry(const dmrp_entry& theirs) {
@@ -69,12 +86,15 @@ Library::Library(const std::filesystem::path& file, const std::function<void(con
     : handle_(std::make_unique<Handle>()), file_(std::filesystem::absolute(file)) {
   if (const std::string why = why_not_loadable(file); !why.empty()) throw std::runtime_error(why);
   const std::uint32_t control_bits = fp_control();
+  const std::set<std::string> before = loaded_objects();
   if (stage) stage("dlopen");
   try {
     handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
     throw std::runtime_error("cannot be loaded: " + loader_message(error, file));
   }
+  for (const std::string& object : loaded_objects())
+    if (!before.contains(object) && std::filesystem::path(object) != file_) objects_.push_back(object);
   if (fp_control() != control_bits) {
     set_fp_control(control_bits);
     warnings_.push_back(

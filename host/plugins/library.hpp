@@ -17,7 +17,7 @@ namespace dmrp::host {
 class Library {
  public:
   // Loads the file with every symbol resolved, and checks the entry object. Throws std::runtime_error, one line without
-  // the file's name. Load only files that probe_library() has loaded: a truncated file kills the process.
+  // the file's name. Load only files that have been probed (host/guests/probe.hpp): a truncated file kills the process.
   // `stage` is told what comes next, "dlopen" or "descriptor(0)": a library that ends the process cannot be asked.
   explicit Library(const std::filesystem::path& file, const std::function<void(const std::string&)>& stage = {});
   ~Library();
@@ -27,6 +27,9 @@ class Library {
   const dmrp_entry& entry() const { return entry_; }
   const std::vector<PluginInfo>& plugins() const { return plugins_; }  // those that this host knows
   const std::filesystem::path& file() const { return file_; }          // absolute
+
+  // The shared objects that were loaded with it, as it needs them; those that this process had before are the host's.
+  const std::vector<std::string>& objects() const { return objects_; }
 
   // One line each: that it changed the process when it was loaded, that a plugin of it is unknown to this host.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -39,6 +42,7 @@ class Library {
   std::filesystem::path file_;
   dmrp_entry entry_{};  // the library's, zero-filled where it is shorter
   std::vector<PluginInfo> plugins_;
+  std::vector<std::string> objects_;
   std::vector<std::string> warnings_;
 };
 
@@ -59,16 +63,12 @@ std::vector<std::filesystem::path> plugin_path();
 // All libraries (.so) of plugin_path(), sorted, without duplicates.
 std::vector<std::filesystem::path> libraries_of_plugin_path();
 
-// The descriptors of a library, read by a child process that loads it. Throws std::runtime_error in one line, or
-// MachineError.
+// What is known of a library without its code.
 struct Probe {
   std::vector<PluginInfo> plugins;
   std::vector<std::string> warnings{};
-  std::string init_error{};  // why init() failed, in one line; empty if it succeeded
+  std::vector<std::string> objects{};  // Library::objects()
+  std::string init_error{};            // why init() failed, in one line; empty if it succeeded
 };
-Probe probe_library(const std::filesystem::path& file);
-
-// The child's side: writes the probe as JSON to the pipe `descriptor`, and ends the process.
-[[noreturn]] void run_probe(const std::filesystem::path& file, int descriptor);
 
 }  // namespace dmrp::host

@@ -71,6 +71,8 @@ const char* parameter_type_name(std::uint32_t type);
 // Throws std::runtime_error, in one line, if the descriptor or an array of it is shorter than v1.0's.
 PluginInfo copy_descriptor(const dmrp_descriptor& descriptor);
 
+void to_json(nlohmann::json& json, const ParameterValue& value);
+void from_json(const nlohmann::json& json, ParameterValue& value);
 void to_json(nlohmann::json& json, const PluginInfo& info);
 void from_json(const nlohmann::json& json, PluginInfo& info);
 

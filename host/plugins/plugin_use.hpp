@@ -18,6 +18,7 @@ struct LibraryUse {
   std::string written;         // as in the file
   std::filesystem::path file;  // absolute
   std::vector<PluginInfo> plugins;
+  std::vector<std::string> objects{};  // shared objects that are loaded with it
 };
 
 // A controller that an experiment names as a bound of what is possible (host/ranking/bounds.hpp).

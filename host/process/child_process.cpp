@@ -48,14 +48,18 @@ void be_killed_first(std::string_view score) {
   close(file);
 }
 
+void begin_child(std::string_view oom_score) {
+  prctl(PR_SET_DUMPABLE, 1);  // the parent is hidden, and so is what it may write in /proc
+  be_killed_first(oom_score);
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+}
+
 // In the child.
 [[noreturn]] void run_child(pid_t parent, int output, std::string_view oom_score,
                             const std::function<void()>& function) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
-  prctl(PR_SET_DUMPABLE, 1);                          // the parent is hidden, and so is what it may write in /proc
-  be_killed_first(oom_score);
-  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  begin_child(oom_score);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
   try {
@@ -103,6 +107,21 @@ std::string ProcessEnding::explain(std::int64_t memory_mb) const {
   return fmt::format("ended the process with status {}", exit_status);
 }
 
+std::int64_t waited_for_processor_ns(pid_t process) {
+  std::int64_t ran_ns = 0;
+  std::int64_t waited_ns = 0;
+  std::ifstream(fmt::format("/proc/{}/schedstat", process)) >> ran_ns >> waited_ns;
+  return waited_ns;
+}
+
+void be_child() {
+  begin_child(oom_score_of_children());
+}
+
+bool is_late(std::int64_t elapsed_ns, std::int64_t waited_ns, std::int64_t limit_ns) {
+  return elapsed_ns - waited_ns > limit_ns || elapsed_ns / longest_wait_factor > limit_ns;
+}
+
 ChildProcess ChildProcess::execute(const Program& program) {
   const std::string executable = executable_path().string();
   std::vector<const char*> arguments = {executable.c_str()};
@@ -137,13 +156,25 @@ ChildProcess::ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const
     if (group_ && !group_->enter()) _exit(start_failed_exit);
     run_child(parent, output, oom_score, function);
   }
+  watch();
+}
+
+ChildProcess::ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group) : group_(std::move(group)), pid_(number) {
+  if (group_) group_->take(number);
+  watch();
+}
+
+std::unique_ptr<ChildProcess> ChildProcess::adopt(pid_t number, std::int64_t group_memory_mb) {
+  return std::unique_ptr<ChildProcess>(new ChildProcess(number, MemoryGroup::make(group_memory_mb)));
+}
+
+void ChildProcess::watch() {
   ended_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
-  if (!ended_.is_open()) {
-    const int reason = errno;
-    kill();
-    wait();
-    throw MachineError("pidfd_open", reason);
-  }
+  if (ended_.is_open()) return;
+  const int reason = errno;
+  kill();
+  wait();
+  throw MachineError("pidfd_open", reason);
 }
 
 ChildProcess::~ChildProcess() {
@@ -174,17 +205,8 @@ MemoryInUse ChildProcess::memory_in_use() const {
   return used;
 }
 
-std::int64_t ChildProcess::waited_for_processor_ns() const {
-  std::int64_t ran_ns = 0;
-  std::int64_t waited_ns = 0;
-  if (pid_ >= 0) std::ifstream(fmt::format("/proc/{}/schedstat", pid_)) >> ran_ns >> waited_ns;
-  return waited_ns;
-}
-
 bool ChildProcess::is_late(std::int64_t elapsed_ns, std::int64_t waited_before_ns, std::int64_t limit_ns) const {
-  if (elapsed_ns <= limit_ns) return false;
-  const std::int64_t waited_ns = waited_for_processor_ns() - waited_before_ns;
-  return elapsed_ns - waited_ns > limit_ns || elapsed_ns / longest_wait_factor > limit_ns;
+  return elapsed_ns > limit_ns && host::is_late(elapsed_ns, waited_for_processor_ns() - waited_before_ns, limit_ns);
 }
 
 void ChildProcess::allow_cpu(double s) {

@@ -53,6 +53,17 @@ struct MemoryInUse {
       0.0;  // of that, what no limit on data counts: memory that other processes may share, without files
 };
 
+// Whether something has taken longer than the limit, of which it waited for a processor so long. That does not count, up to
+// 20 times the limit: other programs may load the machine.
+bool is_late(std::int64_t elapsed_ns, std::int64_t waited_ns, std::int64_t limit_ns);
+
+// How long the main thread of a process has waited for a processor while others used all; 0 where the kernel does not count
+// it.
+std::int64_t waited_for_processor_ns(pid_t process);
+
+// In a child, before it does anything else: it reads from /dev/null, and is killed first when memory is short.
+void be_child();
+
 class ChildProcess {
  public:
   struct Program {
@@ -79,6 +90,10 @@ class ChildProcess {
     return fork(limits, function, Notes());
   }
 
+  // A child that this process has already, which does nothing before it is told to. Puts it into a memory group, where there
+  // can be one. Throws MachineError.
+  static std::unique_ptr<ChildProcess> adopt(pid_t number, std::int64_t group_memory_mb);
+
   ~ChildProcess();  // kills it
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -86,8 +101,7 @@ class ChildProcess {
   // The memory that it has in use now; nothing once it has been waited for.
   MemoryInUse memory_in_use() const;
 
-  // How long its main thread has waited for a processor while others used all; 0 where the kernel does not count it.
-  std::int64_t waited_for_processor_ns() const;
+  std::int64_t waited_for_processor_ns() const { return pid_ < 0 ? 0 : host::waited_for_processor_ns(pid_); }
 
   // Whether it has taken longer than the limit for what began `elapsed_ns` ago, when it had waited for `waited_before_ns`.
   // On a loaded machine it waits for a processor: that does not count, up to 20 times the limit.
@@ -110,6 +124,8 @@ class ChildProcess {
 
  private:
   ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function);
+  ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group);
+  void watch();
 
   std::unique_ptr<MemoryGroup> group_;  // none: it lives in its parent's
   pid_t pid_ = -1;                      // -1: it has been waited for

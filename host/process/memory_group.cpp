@@ -2,6 +2,7 @@
 #include "host/process/memory_group.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view this_process = "0";  // as the kernel's files call the one that writes
+constexpr const char* group_of_host = "dmrp-host";
 constexpr int removals = 100;  // of a group whose processes were killed, and may need a moment to be gone
 constexpr unsigned removal_pause_us = 10'000;
 
@@ -63,6 +65,12 @@ bool is_delegated(const fs::path& group) {
          getxattr(group.c_str(), "user.delegate", nullptr, 0) > 0;
 }
 
+// Whether a process has moved itself here to make groups beside.
+bool is_of_parent(const fs::path& group) {
+  return group.filename() == group_of_host && has_word(group.parent_path() / "cgroup.subtree_control", "memory") &&
+         access(group.parent_path().c_str(), W_OK) == 0;
+}
+
 fs::path own_group() {
   std::ifstream mounts("/proc/self/mountinfo");
   std::ifstream groups("/proc/self/cgroup");
@@ -74,6 +82,11 @@ class Groups {
  public:
   Groups() {
     const fs::path around = own_group();
+    if (!sanitizer_is_loaded() && is_of_parent(around)) {
+      around_ = around.parent_path();
+      is_parents_ = true;
+      return;
+    }
     if (sanitizer_is_loaded() || around.empty() || !has_word(around / "cgroup.controllers", "memory") ||
         !is_delegated(around) || !is_alone_in(around))
       return;
@@ -84,7 +97,7 @@ class Groups {
   ~Groups() {
     if (around_.empty()) return;
     for (int i = 0; i < removals && !remove_left(); ++i) usleep(removal_pause_us);
-    move_back();
+    if (!is_parents_) move_back();
   }
   Groups(const Groups&) = delete;
   Groups& operator=(const Groups&) = delete;
@@ -93,7 +106,7 @@ class Groups {
 
   fs::path add() {
     remove_left();
-    fs::path folder = around_ / ("dmrp-child-" + std::to_string(++made_));
+    fs::path folder = around_ / fmt::format("dmrp-child-{}-{}", getpid(), ++made_);
     if (mkdir(folder.c_str(), 0755) != 0) throw MachineError("mkdir " + folder.string(), errno);
     return folder;
   }
@@ -125,9 +138,10 @@ class Groups {
     return left_.empty();
   }
 
-  fs::path host() const { return around_ / "dmrp-host"; }
+  fs::path host() const { return around_ / group_of_host; }
 
   fs::path around_;  // empty: there can be no groups
+  bool is_parents_ = false;
   std::vector<fs::path> left_;
   std::uint64_t made_ = 0;
 };
@@ -162,6 +176,10 @@ MemoryGroup::~MemoryGroup() {
 
 bool MemoryGroup::enter() const {
   return put(processes_.c_str(), this_process);
+}
+
+void MemoryGroup::take(pid_t process) const {
+  if (!put(processes_, std::to_string(process))) throw MachineError(processes_.string(), errno);
 }
 
 bool MemoryGroup::has_exceeded_limit() const {

@@ -8,6 +8,8 @@
 // killed, its groups are empty, and whoever made the one around them removes them; systemd does.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -17,7 +19,8 @@ namespace dmrp::host {
 
 class MemoryGroup {
  public:
-  // Whether this process can make groups. Under sanitizers it makes none.
+  // Whether this process can make groups: below its own, or beside it where its parent has made them (a worker's guests).
+  // Under sanitizers it makes none.
   static bool available();
 
   // A new group; none without a limit (0), or where there can be none. Throws MachineError.
@@ -30,6 +33,9 @@ class MemoryGroup {
 
   // Moves the process that calls into the group. Async-signal-safe. False on failure.
   bool enter() const;
+
+  // Moves another process into the group. Throws MachineError.
+  void take(pid_t process) const;
 
   // Whether a process was killed because the group had exceeded its own limit, not because the machine had no memory left.
   bool has_exceeded_limit() const;

@@ -18,13 +18,7 @@ namespace dmrp::host::own_process {
 
 namespace {
 
-// On a page that is all zero in a copy.
-struct Marks {
-  std::uint64_t is_original;
-  std::uint64_t stamp;
-};
-
-volatile Marks* marks = nullptr;
+volatile std::uint64_t* is_original = nullptr;  // on a page that is all zero in a copy
 pid_t watched = 0;
 std::atomic<std::uint64_t> copies = 0;
 
@@ -63,8 +57,8 @@ void watch(std::initializer_list<int> numbers) {
   void* const memory = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw MachineError("mmap", errno);
   if (madvise(memory, page, MADV_WIPEONFORK) != 0) throw MachineError("madvise", errno);
-  marks = static_cast<Marks*>(memory);
-  marks->is_original = 1;
+  is_original = static_cast<std::uint64_t*>(memory);
+  *is_original = 1;
   watched = getpid();
 }
 
@@ -76,11 +70,11 @@ bool has_descriptors() {
 }
 
 bool is_copy() {
-  return marks && marks->is_original == 0;
+  return is_original && *is_original == 0;
 }
 
 bool is_other_process() {
-  return marks && (is_copy() || getpid() != watched);
+  return is_original && (is_copy() || getpid() != watched);
 }
 
 std::uint64_t copies_made() {
@@ -90,14 +84,6 @@ std::uint64_t copies_made() {
 bool has_children() {
   siginfo_t child{};
   return waitid(P_ALL, 0, &child, WEXITED | WNOHANG | WNOWAIT | __WALL) == 0 || errno != ECHILD;
-}
-
-void set_stamp(std::uint64_t stamp) {
-  marks->stamp = stamp;
-}
-
-std::uint64_t stamp() {
-  return marks ? marks->stamp : 0;
 }
 
 }  // namespace dmrp::host::own_process

@@ -26,8 +26,4 @@ std::uint64_t copies_made();
 // Whether this process has children, alive or dead.
 bool has_children();
 
-// A number that copies do not inherit: they have 0.
-void set_stamp(std::uint64_t stamp);
-std::uint64_t stamp();
-
 }  // namespace dmrp::host::own_process

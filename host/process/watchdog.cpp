@@ -14,10 +14,14 @@ constexpr std::int64_t longest_gap_ns = 1'000'000'000;  // between waits; a long
 
 bool Watchdog::wait(std::span<pollfd> watched) {
   const int ready = poll(watched.data(), watched.size(), poll_interval_ms);
+  look();
+  return ready > 0;
+}
+
+void Watchdog::look() {
   const std::int64_t now_ns = monotonic_ns();
   if (now_ns - last_seen_ns_ > longest_gap_ns) awake_since_ns_ = now_ns;
   last_seen_ns_ = now_ns;
-  return ready > 0;
 }
 
 bool Watchdog::wait(int descriptor, const std::function<bool()>& is_late) {
@@ -29,11 +33,6 @@ bool Watchdog::wait(int descriptor, const std::function<bool()>& is_late) {
 
 std::int64_t Watchdog::elapsed_ns(std::int64_t start_ns) const {
   return monotonic_ns() - std::max(start_ns, awake_since_ns_);
-}
-
-bool Watchdog::is_overdue(const NotedCall& call, std::int64_t earliest_ns, std::int64_t limit_ns) const {
-  return call.inside && call.start_ns >= earliest_ns && call.start_ns <= monotonic_ns() &&
-         elapsed_ns(call.start_ns) > limit_ns;
 }
 
 }  // namespace dmrp::host

@@ -8,7 +8,6 @@
 #include <functional>
 #include <span>
 
-#include "host/process/call_note.hpp"
 #include "host/program/monotonic_time.hpp"
 
 namespace dmrp::host {
@@ -22,12 +21,11 @@ class Watchdog {
   // Waits until the descriptor is readable or closed. False if `is_late`, called every 100 ms, returned true first.
   bool wait(int descriptor, const std::function<bool()>& is_late);
 
+  // Call it at least once a second while something is watched without wait().
+  void look();
+
   // The time since `start_ns`.
   std::int64_t elapsed_ns(std::int64_t start_ns) const;
-
-  // Whether a call runs that takes longer than `limit_ns`. A plugin can have overwritten the note: a call that did not
-  // start between `earliest_ns` and now is ignored.
-  bool is_overdue(const NotedCall& call, std::int64_t earliest_ns, std::int64_t limit_ns) const;
 
  private:
   std::int64_t last_seen_ns_ = monotonic_ns();  // when the last wait returned

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "host/errors/escaped_text.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/results/value_views.hpp"
 
@@ -329,7 +330,21 @@ std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
   return trials;
 }
 
+// What the host reads is plain tables: something else under their names could answer without end, and a trigger could
+// change what is written.
+void check_schema(const SqliteConnection& connection, const std::filesystem::path& path) {
+  SqliteStatement odd(connection, R"sql(
+    SELECT type, name FROM sqlite_schema AS s WHERE type = 'trigger'
+      OR (name IN ('trial', 'metric', 'added_metric', 'value', 'event', 'fault', 'swept', 'timing')
+        AND (type <> 'table' OR sql LIKE 'CREATE VIRTUAL%'
+          OR EXISTS (SELECT 1 FROM pragma_table_xinfo(s.name) WHERE hidden <> 0))))sql");
+  if (odd.step())
+    throw SqliteError(path.string() + ": has a " + odd.column_text(0) + " '" + escaped(odd.column_text(1).c_str()) +
+                      "' that no dmrp-host makes: it was changed after the run");
+}
+
 void check_file(const SqliteConnection& connection, const std::filesystem::path& path) {
+  check_schema(connection, path);
   SqliteStatement check(connection, "PRAGMA quick_check(1)");
   if (!check.step() || check.column_text(0) != "ok")
     throw SqliteError(path.string() + ": is damaged: " + check.column_text(0));

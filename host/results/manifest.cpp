@@ -149,7 +149,7 @@ void compare_features(std::vector<std::string>& found, const Machine& before, co
 std::map<std::string, std::set<std::string>> code_by_name(const Manifest& manifest) {
   std::map<std::string, std::set<std::string>> libraries;
   for (const HashedFile& file : manifest.files)
-    if (file.role == "plugin library")
+    if (file.role == "plugin library" || file.role == "plugin object")
       libraries[std::filesystem::path(file.path).filename()].insert(file.code.empty() ? file.sha256 : file.code);
   return libraries;
 }

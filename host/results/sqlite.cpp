@@ -72,6 +72,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   // as SQLite's guide "Defense Against The Dark Arts" says of files from strangers
   sqlite3_db_config(connection, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(connection, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   execute("PRAGMA cell_size_check = ON");
   execute("PRAGMA mmap_size = 0");
   if (mode != SqliteMode::read_only) execute("PRAGMA locking_mode = EXCLUSIVE");

@@ -96,6 +96,9 @@ struct TrialRecord {
   std::vector<FaultRecord> faults;
 };
 
+// How the place of a trial in its experiment differs from what its row says, in one line; "" if it does not.
+std::string misplacement(const TrialRecord& row, const TrialRecord& place);
+
 // The columns of all swept values of trials or summaries, in order of appearance.
 template <class Swept>
 std::vector<std::string> swept_columns(std::span<const Swept> all) {

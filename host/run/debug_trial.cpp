@@ -12,10 +12,12 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/guests/inside/log_line.hpp"
+#include "host/guests/nursery.hpp"
+#include "host/guests/probe.hpp"
 #include "host/process/box.hpp"
 #include "host/program/exit_status.hpp"
-#include "host/trial/log_line.hpp"
-#include "host/trial/measure.hpp"
+#include "host/trial/ask_metric.hpp"
 #include "host/trial/run_trial.hpp"
 
 namespace dmrp::host {
@@ -25,7 +27,7 @@ namespace {
 // In this process: a debugger sees one process, which loads each library once.
 Probe load_here(const std::filesystem::path& file) {
   const Library library(file);
-  return {library.plugins(), library.warnings(), ""};
+  return {library.plugins(), library.warnings(), library.objects(), ""};
 }
 
 void print_values(const MetricResult& result) {
@@ -43,10 +45,10 @@ class DebuggedTrial {
         seed_(trial_seed(experiment, trial)),
         shared_(experiment, experiment.scenarios[combination_.scenario]),
         guard_(note_),
-        pool_(experiment.libraries, guard_,
-              [this](std::int32_t level, const std::string& plugin, const std::string& text) {
-                std::fputs(log_line(level, plugin, text, logged_, note_).c_str(), stderr);
-              }) {
+        guests_(Guests::local(experiment.libraries, note_, guard_,
+                              [this](std::int32_t level, const std::string& plugin, const std::string& text) {
+                                std::fputs(log_line(level, plugin, text, logged_, note_).c_str(), stderr);
+                              })) {
     const ScenarioVariant& scenario = experiment.scenarios[combination_.scenario];
     if (is_drawn(scenario))
       own_ = std::make_unique<VariantWorld>(experiment, scenario, shared_,
@@ -75,14 +77,14 @@ class DebuggedTrial {
     core::TraceEncoder trace(world().view.world(), [&](std::int64_t, std::span<const std::uint8_t> record) {
       bytes.insert(bytes.end(), record.begin(), record.end());
     });
-    const TrialEnding ending = run_trial({experiment_, combination_, world(), seed_}, pool_, trace);
+    guests_.begin_trial({logged_->number, logged_->step_ns});
+    const TrialEnding ending = run_trial({experiment_, combination_, world(), seed_}, guests_, trace);
     core::TraceReader reader(bytes);
     fmt::print("{} after {:.2f} s\n", reader.reason(), ending.sim_time_s);
-    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
-      const PluginUse& use = experiment_.metrics[i];
-      print_values(measure(reader, world().walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i, seed_,
-                           nanoseconds(experiment_.limits.step_time_s)));
-    }
+    const auto robots = static_cast<std::uint32_t>(world().scenario.robots.size());
+    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i)
+      print_values(ask_metric(guests_, experiment_.metrics[i], i, {bytes, &world(), robots, seed_},
+                              nanoseconds(experiment_.limits.step_time_s)));
   }
 
   const VariantWorld& world() const { return own_ ? *own_ : shared_; }
@@ -96,7 +98,7 @@ class DebuggedTrial {
   CallNote note_{};
   std::optional<LoggedTrial> logged_;
   CallGuard guard_;
-  InstancePool pool_;
+  Guests guests_;
 };
 
 }  // namespace
@@ -104,6 +106,7 @@ class DebuggedTrial {
 int debug_trial(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
   box::disable();  // another debugger can attach
   const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
+  end_own_nursery();  // a child process would count as a plugin's
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   if (trial >= count)
     throw InputError(fmt::format("--debug {}: {} has the trials 0 to {}", trial, file.string(), count - 1));

@@ -80,9 +80,15 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
   manifest.digest = digest_of(manifest.identity);
   manifest.plugin_limits = limits_of(experiment);
   manifest.left_out = experiment.left_out;
+  std::set<fs::path> objects;  // that libraries need
   for (const LibraryUse& library : experiment.libraries) {
     manifest.files.push_back(hashed_file("plugin library", library.file));
     manifest.files.back().code = code_digest(library.file);
+    objects.insert(library.objects.begin(), library.objects.end());
+  }
+  for (const fs::path& object : objects) {
+    manifest.files.push_back(hashed_file("plugin object", object));
+    manifest.files.back().code = code_digest(object);
   }
   std::set<fs::path> scenarios;
   for (const ScenarioVariant& variant : experiment.scenarios) {

@@ -33,6 +33,12 @@ core::TraceRecords KeptTrace::records() {
   return spool_ ? core::TraceRecords(*spool_) : core::TraceRecords(memory_);
 }
 
+int KeptTrace::spool_descriptor() {
+  if (!spool_) return -1;
+  spool_->rewind();  // which writes what is buffered
+  return spool_->descriptor();
+}
+
 void KeptTrace::finish() {
   if (file_) file_->finish();
 }

@@ -36,6 +36,11 @@ class KeptTrace {
   // All records written so far; write() may not be called afterwards. Valid as long as this object.
   core::TraceRecords records();
 
+  // All records, while they are in memory; then none.
+  std::span<const std::uint8_t> in_memory() const { return memory_; }
+  // The file that has them otherwise; -1 while they are in memory.
+  int spool_descriptor();
+
   // Ends the recorded file, if any.
   void finish();
 

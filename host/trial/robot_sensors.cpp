@@ -66,4 +66,26 @@ const dmrp_obstacle_cluster_list& RobotSensors::clusters() {
   return *fresh_clusters_;
 }
 
+SensorReadings::Ask readings_of(std::vector<std::shared_ptr<RobotSensors>> sensors) {
+  return [sensors = std::move(sensors)](GuestQuestion::Kind kind, std::uint32_t robot) -> const void* {
+    if (kind == GuestQuestion::subscribe_to_costmap)
+      for (const auto& one : sensors)
+        if (one) one->subscribe_to_costmap();
+    RobotSensors* const own = robot < sensors.size() ? sensors[robot].get() : nullptr;
+    if (!own) return nullptr;
+    switch (kind) {
+      case GuestQuestion::scan:
+        return &own->scan();
+      case GuestQuestion::costmap:
+        return &own->costmap();
+      case GuestQuestion::distance_field:
+        return &own->distance_field();
+      case GuestQuestion::clusters:
+        return &own->clusters();
+      default:
+        return nullptr;
+    }
+  };
+}
+
 }  // namespace dmrp::host

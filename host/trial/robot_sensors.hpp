@@ -15,6 +15,7 @@
 #include "core/sensors/obstacle_clusters.hpp"
 #include "core/sensors/odometry.hpp"
 #include "core/world/world.hpp"
+#include "host/guests/inside/sensor_readings.hpp"
 
 namespace dmrp::host {
 
@@ -66,5 +67,8 @@ class RobotSensors {
   core::ObstacleClusters clusters_;
   const dmrp_obstacle_cluster_list* fresh_clusters_ = nullptr;
 };
+
+// Answers in place of a judge: readings of these sensors, by robot; nullptr for a robot that the instance does not drive.
+SensorReadings::Ask readings_of(std::vector<std::shared_ptr<RobotSensors>> sensors);
 
 }  // namespace dmrp::host

@@ -36,11 +36,11 @@ bool can_replan(const core::SimulationSettings& settings) {
 
 class Run {
  public:
-  Run(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace)
+  Run(const Trial& trial, Guests& guests, core::TraceEncoder& trace)
       : settings_(settings_of(trial)),
         world_(trial.variant.scenario, trial.variant.types, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
-        plugins_(pool, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace,
+        plugins_(guests, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace,
                  {can_replan(settings_) ? nullptr : trial.first_plan.given, trial.first_plan.on_made}),
         trace_(trace),
         dispatcher_(trial.variant, world_),
@@ -131,31 +131,19 @@ class Run {
   void control() {
     dispatcher_.update_targets();
     plugins_.sense();
-    if (plugins_.has_central_controller()) return control_all();
-    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-      if (recovers(i) || !is_active(i)) continue;
-      pass_new_path(i);
-      drive(i, plugins_.control(i, dispatcher_.guidance(i), step_));
+    const std::size_t first_call = plugins_.call_count();
+    driven_.clear();
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i)
+      if (!recovers(i) && is_active(i)) driven_.push_back({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)});
+    const auto commands = plugins_.control(driven_, step_);
+    for (std::size_t i = 0; i < driven_.size(); ++i) {
+      plugins_.note_control(i);
+      drive(driven_[i].robot, commands[i]);
     }
-  }
-
-  void control_all() {
-    guided_.clear();
-    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
-      if (recovers(i) || !is_active(i)) continue;
-      pass_new_path(i);
-      guided_.push_back({i, dispatcher_.guidance(i)});
-    }
-    if (guided_.empty()) return;
-    const auto commands = plugins_.control_all(guided_, step_);
-    for (std::size_t i = 0; i < guided_.size(); ++i) drive(guided_[i].robot, commands[i]);
+    plugins_.order_calls(first_call);
   }
 
   bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
-
-  void pass_new_path(std::uint32_t robot) {
-    if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) plugins_.set_path(robot, path, step_);
-  }
 
   std::vector<bool> robots_with_costmap() const {
     std::vector<bool> robots;
@@ -257,7 +245,7 @@ class Run {
   Plan plan_;                         // in force
   std::optional<Plan> pending_plan_;  // comes into force after the planning latency
   std::int64_t step_ = 0;
-  std::vector<GuidedRobot> guided_;  // of control_all()
+  std::vector<TrialPlugins::DrivenRobot> driven_;  // of control()
   std::vector<dmrp_robot_sample> robots_;
   std::vector<dmrp_robot_end> ends_;
 };
@@ -283,8 +271,8 @@ const char* ending_text(std::uint32_t ending) {
   }
 }
 
-TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace) {
-  Run run(trial, pool, trace);
+TrialEnding run_trial(const Trial& trial, Guests& guests, core::TraceEncoder& trace) {
+  Run run(trial, guests, trace);
   const dmrp_trial_end end = run.run();
   TrialEnding ending;
   ending.succeeded = run.succeeded();

@@ -6,7 +6,7 @@
 
 #include "core/trace/trace_encoder.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/trial/instance_pool.hpp"
+#include "host/guests/guests.hpp"
 #include "host/trial/trial_plugins.hpp"
 #include "host/trial/world/variant_world.hpp"
 
@@ -27,7 +27,7 @@ struct TrialEnding {
 };
 
 // The trace has the world's record already. Throws PluginFault; the trace then ends at the fault.
-TrialEnding run_trial(const Trial& trial, InstancePool& pool, core::TraceEncoder& trace);
+TrialEnding run_trial(const Trial& trial, Guests& guests, core::TraceEncoder& trace);
 
 // For the trace's end: a DMRP_ENDING_* as text.
 const char* ending_text(std::uint32_t ending);

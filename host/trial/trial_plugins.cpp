@@ -2,21 +2,26 @@
 #include "host/trial/trial_plugins.hpp"
 
 #include <dmrp/draft/processor_time.h>
+#include <dmrp/ext/annotate.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/scene/robot_task.hpp"
+#include "host/guests/exchange/plan_message.hpp"
+#include "host/guests/inside/annotations.hpp"
 #include "host/trial/observation.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-constexpr const char* world_text = "the world (it, or another plugin of this trial)";
+constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
+constexpr std::size_t most_robots_of_a_request = 64;
 
 bool asks_for(const PluginInfo& info, std::string_view id) {
   const auto has = [id](const std::vector<std::string>& ids) {
@@ -31,23 +36,38 @@ std::uint64_t instance_seed(std::uint64_t seed, const char* purpose, std::uint32
 
 }  // namespace
 
-TrialPlugins::TrialPlugins(InstancePool& pool, const Experiment& experiment, const Combination& combination,
+std::vector<dmrp_grid> grids_of(const VariantWorld& variant, std::uint32_t kind) {
+  std::vector<dmrp_grid> grids;
+  if (kind == DMRP_KIND_GLOBAL_PLANNER) {
+    grids.push_back(variant.planning_grid.view());
+    for (const core::RobotSettings& type : variant.types.all())
+      grids.push_back(variant.planning_grids->of(type.type).view());
+  }
+  if (kind == DMRP_KIND_PEDESTRIAN_MODEL || kind == DMRP_KIND_METRIC)
+    for (const WalkingGrids::Known& grid : variant.walking_grids->known()) grids.push_back(grid.view);
+  return grids;
+}
+
+TrialPlugins::TrialPlugins(Guests& guests, const Experiment& experiment, const Combination& combination,
                            const VariantWorld& variant, const core::World& world, std::uint64_t seed,
                            core::TraceEncoder& trace, FirstPlan first_plan)
     : experiment_(experiment),
       variant_(variant),
       world_(world),
       first_plan_(std::move(first_plan)),
+      step_budget_ns_(nanoseconds(experiment.limits.step_time_s)),
       scanned_trace_(experiment.scans && experiment.traces != RecordTraces::none ? &trace : nullptr),
       annotated_trace_(experiment.annotations && experiment.traces != RecordTraces::none ? &trace : nullptr) {
-  copy_world();
-  if (combination.global_planner >= 0) {
-    planner_use_ = &experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];
-    if (!first_plan_.given || (annotated_trace_ && asks_for(planner_use_->info, DMRP_EXT_ANNOTATE)))
-      start_planner(pool, seed);
-  }
-  if (combination.local_controller >= 0) start_controllers(combination, pool, seed);
-  if (combination.pedestrian_model >= 0) start_pedestrian_model(combination, pool, seed);
+  const auto use = [](const std::vector<PluginUse>& uses, std::int32_t index) {
+    return index >= 0 ? &uses[static_cast<std::size_t>(index)] : nullptr;
+  };
+  planner_use_ = use(experiment_.global_planners, combination.global_planner);
+  if (planner_use_ && (!first_plan_.given || (annotated_trace_ && asks_for(planner_use_->info, DMRP_EXT_ANNOTATE))))
+    start_planner(guests, seed);
+  if (const PluginUse* const controller = use(experiment_.local_controllers, combination.local_controller))
+    start_controllers(guests, *controller, seed);
+  if (const PluginUse* const people = use(experiment_.pedestrian_models, combination.pedestrian_model))
+    people_ = start(guests, *people, {}, instance_seed(seed, "pedestrian_model", 0), step_budget_ns_);
 }
 
 core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
@@ -55,86 +75,123 @@ core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
   return lidars_.try_emplace(type.type, type.lidar, variant_.geometry).first->second;
 }
 
-void TrialPlugins::start_planner(InstancePool& pool, std::uint64_t seed) {
-  planner_ = &pool.get(*planner_use_, DMRP_NO_ROBOT);
-  offer(*planner_, DMRP_KIND_GLOBAL_PLANNER, annotated_trace_);
-  planner_->start(variant_.view.world(), instance_seed(seed, "global_planner", 0),
-                  nanoseconds(experiment_.limits.planner_time_s));
+void TrialPlugins::start_planner(Guests& guests, std::uint64_t seed) {
+  planner_ = start(guests, *planner_use_, {}, instance_seed(seed, "global_planner", 0),
+                   nanoseconds(experiment_.limits.planner_time_s));
 }
 
-void TrialPlugins::start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  const PluginUse& use = experiment_.local_controllers[static_cast<std::size_t>(combination.local_controller)];
+void TrialPlugins::start_controllers(Guests& guests, const PluginUse& use, std::uint64_t seed) {
   const auto robot_count = static_cast<std::uint32_t>(world_.robots().size());
-  const auto start = [&](Instance& instance, std::uint32_t index) {
-    instance.start(variant_.view.world(), instance_seed(seed, "local_controller", index),
-                   nanoseconds(experiment_.limits.step_time_s));
-  };
   central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
+  for (std::uint32_t i = 0; i < robot_count; ++i)
+    controllers_.push_back({{}, std::make_unique<RobotSensors>(world_, i, lidar_of(i), seed)});
   for (std::uint32_t i = 0; i < robot_count; ++i) {
-    Instance& instance = pool.get(use, central_ ? DMRP_NO_ROBOT : static_cast<std::int32_t>(i));
-    controllers_.push_back({&instance, std::make_shared<RobotSensors>(world_, i, lidar_of(i), seed),
-                            instance.table<dmrp_local_controller>()});
-    if (central_) continue;
-    offer_to_controller(instance, i, 1);
-    start(instance, i);
+    Seat& seat = controllers_[i].seat;
+    if (central_ && i > 0) {
+      seat = controllers_[0].seat;
+      continue;
+    }
+    seat.first_robot = i;
+    seat.robot_count = central_ ? robot_count : 1;
+    seat = start(guests, use, seat, instance_seed(seed, "local_controller", i), step_budget_ns_);
   }
-  if (!central_ || robot_count == 0) return;
-  offer_to_controller(*controllers_[0].instance, 0, robot_count);
-  start(*controllers_[0].instance, 0);
 }
 
-void TrialPlugins::start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed) {
-  pedestrian_model_ = &start_crowd(combination, pool, seed, annotated_trace_);
-  crowd_.emplace(*pedestrian_model_, world_, nanoseconds(experiment_.limits.step_time_s));
+TrialPlugins::Seat TrialPlugins::start(Guests& guests, const PluginUse& use, Seat seat, std::uint64_t seed,
+                                       std::int64_t budget_ns) {
+  const bool drives_one = use.info.kind == DMRP_KIND_LOCAL_CONTROLLER && !central_;
+  seat.instance = &guests.get(use, drives_one ? static_cast<std::int32_t>(seat.first_robot) : DMRP_NO_ROBOT);
+  seat.kind = use.info.kind;
+  Guest& guest = *seat.instance->guest;
+  const VariantWorld& shared = variant_.shared();
+  SentWorld& sent_shared = guest.shared_world(shared.view.world(), grids_of(shared, seat.kind));
+  seat.world = &shared == &variant_
+                   ? &sent_shared
+                   : &guest.own_world(variant_.view.world(), sent_shared, grids_of(variant_, seat.kind));
+  Arena& arena = guest.begin();
+  const SentScene scene = guest.scene(sent_shared, shared.walking_grids->known());
+  const StartInput* const input =
+      arena.copy(StartInput{&seat.world->world(), scene, seed, seat.first_robot, seat.robot_count});
+  call(seat, {GuestTask::start, 0, 0, budget_ns, input});
+  return seat;
 }
 
-Instance& TrialPlugins::start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
-                                    core::TraceEncoder* annotated_trace) {
-  const PluginUse& use = experiment_.pedestrian_models[static_cast<std::size_t>(combination.pedestrian_model)];
-  Instance& model = pool.get(use, DMRP_NO_ROBOT);
-  offer(model, DMRP_KIND_PEDESTRIAN_MODEL, annotated_trace);
-  model.start(variant_.view.world(), instance_seed(seed, "pedestrian_model", 0),
-              nanoseconds(experiment_.limits.step_time_s));
-  return model;
+std::string_view TrialPlugins::call(const Seat& seat, GuestRequest request) {
+  request.instance = seat.instance->number;
+  request.annotated = annotated_trace_ && takes_annotations(*annotated_trace_) ? 1 : 0;
+  Guest& guest = *seat.instance->guest;
+  std::string_view text;
+  try {
+    text =
+        guest.call(request, [&](const GuestQuestion& question, Arena& arena) { return answer(seat, question, arena); });
+  } catch (const PluginFault&) {
+    record_annotations(seat);
+    throw;
+  }
+  record_annotations(seat);
+  return text;
 }
 
-// Instances outlive the trial, so they must not keep the extensions alive.
-void TrialPlugins::offer(Instance& instance, std::uint32_t kind, core::TraceEncoder* annotated_trace) {
-  annotations_.push_back(std::make_shared<Annotations>(annotated_trace, kind, 0, 0));
-  const auto grids = kind == DMRP_KIND_PEDESTRIAN_MODEL ? variant_.walking_grids : nullptr;
-  instance.offer([annotations = std::weak_ptr(annotations_.back()),
-                  grids = std::weak_ptr(grids)](std::string_view id) -> const void* {
-    if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
-    const auto here = grids.lock();
-    return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
-  });
+void TrialPlugins::record_annotations(const Seat& seat) {
+  const auto bytes = seat.instance->guest->annotations();
+  if (bytes.empty() || !annotated_trace_) return;
+  const auto source = [&](std::uint32_t instance, std::uint32_t robot) -> std::optional<core::AnnotationSource> {
+    if (seat.kind != DMRP_KIND_LOCAL_CONTROLLER) return core::AnnotationSource{seat.kind, 0};
+    if (robot >= controllers_.size() || !controllers_[robot].seat.instance ||
+        controllers_[robot].seat.instance->number != instance)
+      return std::nullopt;
+    return core::AnnotationSource{seat.kind, robot};
+  };
+  host::record_annotations(bytes, source, *annotated_trace_);
 }
 
-void TrialPlugins::offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count) {
-  annotations_.push_back(
-      std::make_shared<Annotations>(annotated_trace_, DMRP_KIND_LOCAL_CONTROLLER, first_robot, robot_count));
-  std::vector<std::shared_ptr<RobotSensors>> sensors(first_robot);
-  for (std::uint32_t i = 0; i < robot_count; ++i) sensors.push_back(controllers_[first_robot + i].sensors);
-  sensor_extensions_.push_back(std::make_shared<SensorExtensions>(std::move(sensors)));
-  instance.offer([annotations = std::weak_ptr(annotations_.back()),
-                  sensors = std::weak_ptr(sensor_extensions_.back())](std::string_view id) -> const void* {
-    if (const auto here = annotations.lock(); here && id == DMRP_EXT_ANNOTATE) return here->extension();
-    const auto here = sensors.lock();
-    return here ? here->extension(id) : nullptr;
-  });
+// Copies the reading into the arena, where the guest finds it.
+const void* TrialPlugins::answer(const Seat& seat, const GuestQuestion& question, Arena& arena) {
+  if (seat.kind != DMRP_KIND_LOCAL_CONTROLLER) return nullptr;
+  if (question.kind == GuestQuestion::subscribe_to_costmap) {
+    for (std::uint32_t i = 0; i < seat.robot_count; ++i)
+      controllers_[seat.first_robot + i].sensors->subscribe_to_costmap();
+    return nullptr;
+  }
+  const bool drives = question.robot < controllers_.size() && controllers_[question.robot].seat.instance &&
+                      controllers_[question.robot].seat.instance->number == question.instance;
+  if (!drives) return nullptr;
+  return reading(*controllers_[question.robot].sensors, question.kind, arena);
 }
 
-void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result) {
-  calls_.push_back({kind, robot, result.status, 0, result.duration_ns});
+const void* TrialPlugins::reading(RobotSensors& sensors, std::uint32_t kind, Arena& arena) {
+  if (kind == GuestQuestion::scan) return sent(arena, sensors.scan());
+  if (!sensors.has_costmap()) return nullptr;
+  switch (kind) {
+    case GuestQuestion::costmap:
+      return sent(arena, sensors.costmap());
+    case GuestQuestion::distance_field:
+      return sent(arena, sensors.distance_field());
+    case GuestQuestion::clusters:
+      return sent(arena, sensors.clusters());
+    default:
+      return nullptr;
+  }
+}
+
+SentReadings TrialPlugins::readings_of(const Controller& controller, Arena& arena) {
+  SentReadings readings{};
+  for (std::uint32_t kind = 0; kind < SentReadings::kinds; ++kind)
+    if (controller.read & 1u << kind) readings.of[kind] = reading(*controller.sensors, kind, arena);
+  return readings;
+}
+
+void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const CallAnswer& answer) {
+  calls_.push_back({kind, robot, answer.status, 0, answer.duration_ns});
 }
 
 Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   const auto source = [&](const dmrp_planning_problem& problem) {
-    return planner_ ? call_planner(*planner_, problem, step) : *first_plan_.given;
+    return planner_.instance ? ask_planner(problem, step) : *first_plan_.given;
   };
   Plan plan = make_plan(source, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
-  if (!in_force && planner_ && first_plan_.on_made) first_plan_.on_made(plan);
+  if (!in_force && planner_.instance && first_plan_.on_made) first_plan_.on_made(plan);
   if (plan.answered) {
     note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
     note_call(DMRP_CALL_PLAN_PROCESSOR_TIME, 0, {plan.status, plan.processor_ns});
@@ -142,13 +199,12 @@ Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   return plan;
 }
 
-void TrialPlugins::set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step) {
-  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
-                          waypoints.data()};
-  Controller& controller = controllers_[robot];
-  const dmrp_path_update update = {sizeof(update), robot, ++controller.revision, &path};
-  controller.instance->call("set_path", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
-                            [&] { return controller.table.set_path(controller.instance->self(), &update); });
+PlannerAnswer TrialPlugins::ask_planner(const dmrp_planning_problem& problem, std::int64_t step) {
+  Guest& guest = *planner_.instance->guest;
+  Arena& arena = guest.begin();
+  const PlanInput* const input = arena.copy(plan_input(arena, guest.output(), *planner_.world, problem));
+  const std::string_view text = call(planner_, {GuestTask::plan, 0, step, problem.time_budget_ns, input});
+  return planner_answer(text, *input, problem.robot_count, planner_.instance->site("plan", step));
 }
 
 void TrialPlugins::sense() {
@@ -159,108 +215,152 @@ void TrialPlugins::sense() {
     }
 }
 
-void TrialPlugins::copy_input(std::span<const dmrp_observation> observations) {
-  input_.clear();
-  input_.add(observations);
-  for (const dmrp_observation& observation : observations) {
-    input_.add(*observation.goal);
-    input_.add(*observation.limits);
-    input_.add(*observation.footprint);
-    input_.add(std::span(observation.agents, observation.agent_count));
-  }
+std::span<const std::optional<dmrp_twist>> TrialPlugins::control(std::span<const DrivenRobot> robots,
+                                                                 std::int64_t step) {
+  answers_.clear();
+  commands_.clear();
+  commanded_.clear();
+  if (central_ && !robots.empty()) control_all(robots, step);
+  for (std::size_t first = 0; first < robots.size() && !central_; first += most_robots_of_a_request)
+    control_some(robots.subspan(first, std::min(most_robots_of_a_request, robots.size() - first)), step);
+  return commands_;
 }
 
-void TrialPlugins::copy_world() {
-  const dmrp_world& world = variant_.view.world();
-  world_input_.add(world);
-  world_input_.add(std::span(world.robots, world.robot_count));
-  world_input_.add(std::span(world.shapes, world.shape_count));
-  world_input_.add(std::span(world.segments, world.segment_count));
-  if (!world.planning_grid) return;
-  const dmrp_grid& grid = *world.planning_grid;
-  const std::size_t cells = std::size_t{grid.width} * grid.height;
-  world_input_.add(grid);
-  world_input_.add(std::span(grid.free, cells));
-  world_input_.add(std::span(grid.edges, cells));
-  world_input_.add(std::span(grid.clearance, cells));
+void TrialPlugins::note_control(std::size_t index) {
+  if (!central_)
+    note_call(DMRP_CALL_CONTROL, commanded_[index], answers_[index]);
+  else if (index == 0)
+    note_call(DMRP_CALL_CONTROL, 0, answers_[0]);
 }
 
-dmrp_twist TrialPlugins::checked(std::uint32_t robot, const dmrp_command& command, const char* function,
-                                 std::int64_t step) const {
-  if (std::isfinite(command.v_x) && std::isfinite(command.v_y) && std::isfinite(command.omega))
-    return {command.v_x, command.v_y, command.omega};
-  CallSite site = controllers_[robot].instance->site(function, step);
-  site.robot = static_cast<std::int32_t>(robot);
-  throw PluginFault(fault_kind::bad_output, site,
-                    fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
+void TrialPlugins::order_calls(std::size_t first) {
+  if (central_) return;  // one call for all
+  std::stable_sort(calls_.begin() + static_cast<std::ptrdiff_t>(first), calls_.end(),
+                   [](const dmrp_call& a, const dmrp_call& b) { return a.robot < b.robot; });
 }
 
-std::optional<dmrp_twist> TrialPlugins::control(std::uint32_t robot, const Guidance& guidance, std::int64_t step) {
-  Controller& controller = controllers_[robot];
-  const dmrp_observation seen = observation_of(robot, guidance, variant_, world_, *controller.sensors);
-  copy_input({&seen, 1});
-  command_.clear();
-  const auto result = controller.instance->call(
-      "step", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_solution,
-      [&] { return controller.table.step(controller.instance->self(), &seen, &command_.value); });
-  command_.check(controller.instance->site("step", step), "dmrp_command");
-  input_.check(controller.instance->site("step", step), "the observation");
-  note_call(DMRP_CALL_CONTROL, robot, result);
-  if (result.status == DMRP_NO_SOLUTION) return std::nullopt;
-  return checked(robot, command_.value, "step", step);
+const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena& arena) {
+  if (robot.new_path.empty()) return nullptr;
+  const auto count = static_cast<std::uint32_t>(robot.new_path.size());
+  const dmrp_path* const path = arena.copy(
+      dmrp_path{sizeof(dmrp_path), count, sizeof(dmrp_waypoint), 0, arena.copy(robot.new_path.data(), count)});
+  return arena.copy(
+      dmrp_path_update{sizeof(dmrp_path_update), robot.robot, ++controllers_[robot.robot].revision, path});
 }
 
-std::span<const std::optional<dmrp_twist>> TrialPlugins::control_all(std::span<const GuidedRobot> robots,
-                                                                     std::int64_t step) {
-  observations_.clear();
-  commands_.resize(robots.size());
+void TrialPlugins::control_some(std::span<const DrivenRobot> robots, std::int64_t step) {
+  const Seat& first = controllers_[robots[0].robot].seat;
+  Guest& guest = *first.instance->guest;
+  Arena& arena = guest.begin();
+  auto* const items = arena.make<ControlItem>(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const std::uint32_t robot = robots[i].robot;
-    observations_.push_back(observation_of(robot, robots[i].guidance, variant_, world_, *controllers_[robot].sensors));
-    commands_[i].struct_size = sizeof(dmrp_command);
+    const DrivenRobot& robot = robots[i];
+    const Controller& controller = controllers_[robot.robot];
+    const dmrp_observation seen = observation_of(robot.robot, robot.guidance, variant_, world_, *controller.sensors);
+    items[i] = {controller.seat.instance->number, update_of(robot, arena),
+                arena.copy(controller.seat.world->copy(arena, seen)), readings_of(controller, arena)};
   }
-  const dmrp_fleet fleet = {sizeof(fleet),        static_cast<std::uint32_t>(robots.size()),
-                            observations_.data(), sizeof(dmrp_observation),
-                            sizeof(dmrp_command), commands_.data()};
-  const Controller& controller = controllers_[0];
-  copy_input(observations_);
-  const auto result =
-      controller.instance->call("step_all", step, nanoseconds(experiment_.limits.step_time_s), Answers::no_other,
-                                [&] { return controller.table.step_all(controller.instance->self(), &fleet); });
-  commands_.check(controller.instance->site("step_all", step), "the commands");
-  input_.check(controller.instance->site("step_all", step), "the observations");
-  note_call(DMRP_CALL_CONTROL, 0, result);
-  twists_.clear();
+  const ControlInput* const input = arena.copy(ControlInput{static_cast<std::uint32_t>(robots.size()), items});
+  auto* const answers = guest.output().make<ControlAnswer>(robots.size());
+  call(first, {GuestTask::control, 0, step, step_budget_ns_, input, answers});
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (commands_[i].status == DMRP_NO_SOLUTION)
-      twists_.push_back(std::nullopt);
-    else
-      twists_.push_back(checked(robots[i].robot, commands_[i], "step_all", step));
+    take_command(robots[i], ControlAnswer(answers[i]), "step", step);
   }
-  return twists_;
+}
+
+void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
+  const Seat& seat = controllers_[0].seat;
+  Guest& guest = *seat.instance->guest;
+  Arena& arena = guest.begin();
+  const auto count = static_cast<std::uint32_t>(robots.size());
+  auto* const observations = arena.make<dmrp_observation>(count);
+  auto* const readings = arena.make<SentReadings>(count);
+  std::vector<dmrp_path_update> updates;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const DrivenRobot& robot = robots[i];
+    if (const dmrp_path_update* const update = update_of(robot, arena)) updates.push_back(*update);
+    observations[i] = seat.world->copy(
+        arena, observation_of(robot.robot, robot.guidance, variant_, world_, *controllers_[robot.robot].sensors));
+    readings[i] = readings_of(controllers_[robot.robot], arena);
+  }
+  auto* const answers = guest.output().make<ControlAnswer>(count);
+  auto* const answer = guest.output().make<CallAnswer>();
+  const auto update_count = static_cast<std::uint32_t>(updates.size());
+  const CentralInput* const input = arena.copy(
+      CentralInput{update_count, arena.copy(updates.data(), updates.size()), count, observations, readings, answers});
+  call(seat, {GuestTask::control_all, 0, step, step_budget_ns_, input, answer});
+  const CallAnswer result = *answer;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ControlAnswer one = answers[i];
+    one.call = {one.command.status, result.duration_ns};
+    take_command(robots[i], one, "step_all", step);
+  }
+  answers_.assign(1, result);
+}
+
+void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function,
+                                std::int64_t step) {
+  const dmrp_command& command = answer.command;
+  controllers_[robot.robot].read = answer.read;
+  answers_.push_back(answer.call);
+  commanded_.push_back(robot.robot);
+  if (answer.call.status == DMRP_NO_SOLUTION) {
+    commands_.push_back(std::nullopt);
+    return;
+  }
+  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega)) {
+    CallSite site = controllers_[robot.robot].seat.instance->site(function, step);
+    site.robot = static_cast<std::int32_t>(robot.robot);
+    throw PluginFault(fault_kind::bad_output, site,
+                      fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
+  }
+  commands_.push_back(dmrp_twist{command.v_x, command.v_y, command.omega});
 }
 
 const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step) {
-  at_rest_.assign(world_.people().size(), {0.0, 0.0});
-  if (!crowd_ || at_rest_.empty()) return at_rest_;
-  note_call(DMRP_CALL_PEOPLE, 0, crowd_->update(step));
-  return crowd_->velocities();
+  const auto people = world_.people();
+  velocities_.assign(people.size(), {0.0, 0.0});
+  if (!people_.instance || people.empty()) return velocities_;
+  Guest& guest = *people_.instance->guest;
+  Arena& arena = guest.begin();
+  const auto robots = world_.robot_agents();
+  auto* const motions = guest.output().make<dmrp_motion>(people.size());
+  auto* const answer = guest.output().make<CallAnswer>();
+  const dmrp_crowd crowd = {sizeof(crowd),
+                            static_cast<std::uint32_t>(people.size()),
+                            world_.t_ns(),
+                            world_.settings().step_ns,
+                            arena.copy(people.data(), people.size()),
+                            arena.copy(robots.data(), robots.size()),
+                            sizeof(dmrp_person),
+                            static_cast<std::uint32_t>(robots.size()),
+                            sizeof(dmrp_agent),
+                            0};
+  const PeopleInput* const input = arena.copy(PeopleInput{crowd, motions});
+  call(people_, {GuestTask::move_people, 0, step, step_budget_ns_, input, answer});
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const dmrp_vec2 velocity = motions[i].velocity;
+    if (!(std::hypot(velocity.x, velocity.y) <= fastest_person_mps))
+      throw PluginFault(fault_kind::bad_output, people_.instance->site("step", step),
+                        fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocity.x, velocity.y));
+    velocities_[i] = velocity;
+  }
+  note_call(DMRP_CALL_PEOPLE, 0, *answer);
+  return velocities_;
 }
 
 void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
-  const auto end_of = [&](Instance* instance) {
-    if (instance) instance->end_trial(end, step, nanoseconds(experiment_.limits.step_time_s));
+  const auto end_of = [&](const Seat& seat) {
+    if (!seat.instance) return;
+    const dmrp_trial_end* const input = sent(seat.instance->guest->begin(), end);
+    call(seat, {GuestTask::end_trial, 0, step, step_budget_ns_, input});
   };
   end_of(planner_);
   for (const Controller& controller : controllers_) {
-    end_of(controller.instance);
+    end_of(controller.seat);
     if (central_) break;
   }
-  end_of(pedestrian_model_);
-  // found late: any plugin of the trial can have done it
-  for (const Instance* instance :
-       {pedestrian_model_, planner_, controllers_.empty() ? nullptr : controllers_[0].instance})
-    if (instance) return world_input_.check(instance->site("trial_end", step), world_text);
+  end_of(people_);
 }
 
 }  // namespace dmrp::host

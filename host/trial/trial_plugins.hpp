@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// trial_plugins.hpp: the plugins of one trial; every call goes through the call guard.
+// trial_plugins.hpp: the plugins of one trial, which are guests: what they are shown is sent to them, and what they answer is
+// checked.
 #pragma once
 
 #include <dmrp/local_controller.h>
@@ -15,25 +16,16 @@
 #include <vector>
 
 #include "core/sensors/lidar.hpp"
+#include "core/trace/trace_encoder.hpp"
 #include "core/world/world.hpp"
-#include "host/plugins/calls/input_copy.hpp"
-#include "host/plugins/calls/output.hpp"
-#include "host/trial/annotations.hpp"
-#include "host/trial/crowd_model.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/guests/guests.hpp"
 #include "host/trial/dispatcher.hpp"
-#include "host/trial/instance_pool.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
-#include "host/trial/sensor_extensions.hpp"
 #include "host/trial/world/variant_world.hpp"
 
 namespace dmrp::host {
-
-// An active robot and its part of the plan.
-struct GuidedRobot {
-  std::uint32_t robot;
-  Guidance guidance;
-};
 
 // The first plan of a trial, if it is there already: then the planner is not asked for it.
 struct FirstPlan {
@@ -41,11 +33,14 @@ struct FirstPlan {
   std::function<void(const PlannerAnswer&)> on_made;  // called with a valid plan, or none, of the planner; may be empty
 };
 
+// The grids that a plugin of this kind is sent with the world.
+std::vector<dmrp_grid> grids_of(const VariantWorld& variant, std::uint32_t kind);
+
 class TrialPlugins {
  public:
-  // Takes the combination's instances from the pool and starts them for this trial: the planner only if it is asked for
-  // a plan, or annotates. Their annotations go to `trace`. All functions throw PluginFault.
-  TrialPlugins(InstancePool& pool, const Experiment& experiment, const Combination& combination,
+  // Starts the combination's instances for this trial: the planner only if it is asked for a plan, or annotates. Their
+  // annotations go to `trace`. All functions throw PluginFault.
+  TrialPlugins(Guests& guests, const Experiment& experiment, const Combination& combination,
                const VariantWorld& variant, const core::World& world, std::uint64_t seed, core::TraceEncoder& trace,
                FirstPlan first_plan = {});
   TrialPlugins(const TrialPlugins&) = delete;
@@ -54,20 +49,22 @@ class TrialPlugins {
   // Makes a plan for the robots, of which there is one at least. `in_force`: the plan in force, nullptr for the first.
   Plan plan(const InForce* in_force, std::int64_t step);
 
-  // Passes a path to a robot's controller.
-  void set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints, std::int64_t step);
-
   // Updates the sensors of all active robots; at the beginning of a control tick.
   void sense();
 
-  // Whether one controller instance drives all robots: then control_all() takes the place of control().
-  bool has_central_controller() const { return central_; }
+  // A robot whose controller is asked for a command.
+  struct DrivenRobot {
+    std::uint32_t robot;
+    Guidance guidance;
+    std::span<const dmrp_waypoint> new_path;  // empty: it keeps the one that it has
+  };
 
-  // The next command of a robot. Nothing if its controller found none: the host then brakes.
-  std::optional<dmrp_twist> control(std::uint32_t robot, const Guidance& guidance, std::int64_t step);
+  // The next commands, parallel to `robots`, valid until the next call. Nothing for a robot whose controller found none:
+  // the host then brakes. All robots are observed before any of them is driven.
+  std::span<const std::optional<dmrp_twist>> control(std::span<const DrivenRobot> robots, std::int64_t step);
 
-  // The next commands of all active robots, parallel to `robots`, valid until the next call.
-  std::span<const std::optional<dmrp_twist>> control_all(std::span<const GuidedRobot> robots, std::int64_t step);
+  // Notes the call that gave the command `index` of the last control(): before what becomes of it.
+  void note_control(std::size_t index);
 
   // The velocities of all people for the next step.
   const std::vector<dmrp_vec2>& people_velocities(std::int64_t step);
@@ -87,54 +84,64 @@ class TrialPlugins {
   bool has_costmap(std::uint32_t robot) const { return controllers_[robot].sensors->has_costmap(); }
   void clear_costmap(std::uint32_t robot) { controllers_[robot].sensors->clear_costmap(); }
 
+  // The calls since the first of this number stand in the order of their robots, as if each robot had been seen to alone.
+  std::size_t call_count() const { return calls_.size(); }
+  void order_calls(std::size_t first);
+
   // The calls of plugins since the previous take_calls().
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
 
  private:
-  void start_planner(InstancePool& pool, std::uint64_t seed);
-  void start_controllers(const Combination& combination, InstancePool& pool, std::uint64_t seed);
-  void start_pedestrian_model(const Combination& combination, InstancePool& pool, std::uint64_t seed);
-  Instance& start_crowd(const Combination& combination, InstancePool& pool, std::uint64_t seed,
-                        core::TraceEncoder* annotated_trace);
+  // An instance in this trial.
+  struct Seat {
+    GuestInstance* instance = nullptr;
+    const SentWorld* world = nullptr;
+    std::uint32_t kind = 0;
+    std::uint32_t first_robot = 0;  // those that a controller drives
+    std::uint32_t robot_count = 0;
+  };
+  struct Controller {
+    Seat seat;
+    std::unique_ptr<RobotSensors> sensors;
+    std::uint64_t revision = 0;  // of its path
+    std::uint32_t read = 0;      // the sensors that it read in its last call: bits 1u << GuestQuestion::Kind
+  };
+
+  void start_planner(Guests& guests, std::uint64_t seed);
+  void start_controllers(Guests& guests, const PluginUse& use, std::uint64_t seed);
+  Seat start(Guests& guests, const PluginUse& use, Seat seat, std::uint64_t seed, std::int64_t budget_ns);
+  std::string_view call(const Seat& seat, GuestRequest request);
+  void record_annotations(const Seat& seat);
+  const void* answer(const Seat& seat, const GuestQuestion& question, Arena& arena);
+  static const void* reading(RobotSensors& sensors, std::uint32_t kind, Arena& arena);
+  static SentReadings readings_of(const Controller& controller, Arena& arena);
+
+  PlannerAnswer ask_planner(const dmrp_planning_problem& problem, std::int64_t step);
+  void control_some(std::span<const DrivenRobot> robots, std::int64_t step);
+  void control_all(std::span<const DrivenRobot> robots, std::int64_t step);
+  const dmrp_path_update* update_of(const DrivenRobot& robot, Arena& arena);
+  void take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function, std::int64_t step);
+  void note_call(std::uint32_t kind, std::uint32_t robot, const CallAnswer& answer);
 
   core::Lidar& lidar_of(std::uint32_t robot);
-
-  // Offer an instance its extensions.
-  void offer(Instance& instance, std::uint32_t kind, core::TraceEncoder* annotated_trace);
-  void offer_to_controller(Instance& instance, std::uint32_t first_robot, std::uint32_t robot_count);
-  void copy_input(std::span<const dmrp_observation> observations);
-  void copy_world();
-  dmrp_twist checked(std::uint32_t robot, const dmrp_command& command, const char* function, std::int64_t step) const;
-  void note_call(std::uint32_t kind, std::uint32_t robot, const CallGuard::Result& result);
 
   const Experiment& experiment_;
   const VariantWorld& variant_;
   const core::World& world_;
   FirstPlan first_plan_;
-  const PluginUse* planner_use_ = nullptr;  // nullptr without robots
-  Instance* planner_ = nullptr;             // nullptr where it is not asked
-  Instance* pedestrian_model_ = nullptr;
-  struct Controller {
-    Instance* instance;
-    std::shared_ptr<RobotSensors> sensors;
-    dmrp_local_controller table;
-    std::uint64_t revision = 0;  // of its path
-  };
+  const std::int64_t step_budget_ns_;
+  const PluginUse* planner_use_ = nullptr;     // nullptr without robots
+  Seat planner_;                               // no instance where it is not asked
+  Seat people_;                                // no instance: they stand
   std::map<std::string, core::Lidar> lidars_;  // by type of robot
   core::TraceEncoder* scanned_trace_;          // nullptr if no scans are recorded
   core::TraceEncoder* annotated_trace_;        // nullptr if no annotations are recorded
-  std::vector<std::shared_ptr<Annotations>> annotations_;
-  std::vector<std::shared_ptr<SensorExtensions>> sensor_extensions_;
-  std::vector<Controller> controllers_;  // by robot; all with the same instance if it is central
+  std::vector<Controller> controllers_;        // by robot; all with the same instance if it is central
   bool central_ = false;
-  InputCopy input_;  // of the call that runs
-  InputCopy world_input_;
-  Output<dmrp_command> command_;
-  std::vector<dmrp_observation> observations_;  // of control_all(), as the next two
-  OutputArray<dmrp_command> commands_;
-  std::vector<std::optional<dmrp_twist>> twists_;
-  std::optional<CrowdModel> crowd_;  // of pedestrian_model_
-  std::vector<dmrp_vec2> at_rest_;   // without a model; parallel to world_.people()
+  std::vector<CallAnswer> answers_;  // of control(), as the next
+  std::vector<std::optional<dmrp_twist>> commands_;
+  std::vector<std::uint32_t> commanded_;  // the robots
+  std::vector<dmrp_vec2> velocities_;     // parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };
 

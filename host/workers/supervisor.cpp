@@ -2,7 +2,7 @@
 #include "host/workers/supervisor.hpp"
 
 #include <fmt/format.h>
-#include <sys/random.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -18,7 +18,6 @@
 #include "host/experiment/identity.hpp"
 #include "host/files/open_log.hpp"
 #include "host/files/try_to_write.hpp"
-#include "host/process/memory_group.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
 #include "host/process/watchdog.hpp"
@@ -29,8 +28,6 @@
 #include "host/workers/scratch_folder.hpp"
 #include "host/workers/stored_file.hpp"
 #include "host/workers/stored_plan.hpp"
-#include "host/workers/whole_number.hpp"
-#include "host/workers/worker_fault.hpp"
 #include "host/workers/worker_process.hpp"
 
 namespace dmrp::host {
@@ -41,12 +38,12 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr int start_attempts = 3;
-constexpr int most_kills = 4;  // of one trial: then a plugin of it is to blame, not somebody outside
+constexpr int most_kills = 4;  // of one trial: then it is to blame, not somebody outside
 constexpr int most_kills_between_trials = 20;
-constexpr std::int64_t long_call_ns = second_ns;
-constexpr std::int64_t shutdown_limit_ns = 2 * second_ns;  // for destroy() and deinit() of plugins
+constexpr std::int64_t worker_limit_ns = 30 * second_ns;    // for what a worker does itself, beyond a trial's limit
+constexpr std::int64_t shutdown_limit_ns = 10 * second_ns;  // for destroy() and deinit() of plugins
 
-// Something of a worker that may take so long.
+// What a worker does, and may take so long.
 struct Watch {
   std::int64_t start_ns = 0;
   std::int64_t waited_before_ns = 0;  // by the worker, before the start
@@ -55,22 +52,18 @@ struct Watch {
 struct Slot {
   std::unique_ptr<ScratchFolder> scratch;  // outlives the worker
   std::unique_ptr<WorkerProcess> worker;
-  std::int64_t worker_started_ns = 0;
-  Watch work;       // the start of the worker, or its trial
-  Watch long_call;  // the last that took long
+  Watch work;  // the start of the worker, or its trial
   bool ready = false;
-  bool listening = true;    // the worker's end of the channel is open
-  bool makes_plan = false;  // its trial has still to give the plan that others wait for
-  int trials_begun = 0;     // by this worker
+  bool listening = true;  // the worker's end of the channel is open
+  int trials_begun = 0;   // by this worker
   std::optional<OpenTrial> trial;
   std::optional<std::uint64_t> last_trial;  // that this worker finished
 };
 
-std::uint64_t new_stamp() {
-  std::uint64_t stamp = 0;
-  while (stamp == 0)
-    if (getrandom(&stamp, sizeof(stamp), 0) != sizeof(stamp)) throw MachineError("getrandom", errno);
-  return stamp;
+// "crash in org.example.controller step(): Segmentation fault"
+std::string text_of(const FaultRecord& fault) {
+  if (fault.plugin.empty()) return fault.kind + ": " + fault.detail;
+  return fmt::format("{} in {} {}(): {}", fault.kind, fault.plugin, fault.function, fault.detail);
 }
 
 class Supervisor {
@@ -104,7 +97,6 @@ class Supervisor {
     while (open_trials_ > 0) {
       for (Slot& slot : slots_) assign_work(slot);
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
-      if (watches_memory_ && monotonic_ns() >= next_look_at_memory_ns_) look_at_memory();
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
       sinks_.on_idle();
@@ -120,10 +112,8 @@ class Supervisor {
     if (!slot.worker) {
       slot = Slot();
       slot.scratch = std::make_unique<ScratchFolder>(settings_.run_directory);
-      slot.worker = std::make_unique<WorkerProcess>(experiment_, slot.scratch->path());
-      slot.worker_started_ns = monotonic_ns();
-      slot.work = {slot.worker_started_ns, 0};
-      allow_cpu(slot);
+      slot.worker = std::make_unique<WorkerProcess>(experiment_, slot.scratch->path(), place_of(slot));
+      slot.work = {monotonic_ns(), 0};
     }
     if (!slot.ready) return;
     slot.trial = next_trial();
@@ -132,17 +122,20 @@ class Supervisor {
     slot.work = {slot.trial->started_ns, slot.worker->process().waited_for_processor_ns()};
     // a worker that has died is noticed by its end
     slot.scratch->restore();
-    allow_cpu(slot);
-    Job job = slot.trial->begin(new_stamp());
+    Job job = slot.trial->begin();
     if (experiment_.traces != RecordTraces::none) job.trace_file = scratch_trace(slot, job.trial).string();
     job.scratch_file = (slot.scratch->path() / "samples").string();
     job.plan = plan_of(job.trial);
-    slot.makes_plan = !job.plan.empty() && !plans_.has(job.plan);
-    if (slot.makes_plan) {
+    if (!job.plan.empty() && !plans_.has(job.plan)) {
       job.new_plan = scratch_plan(slot).string();
       planning_[job.plan] = job.trial;
     }
     slot.worker->channel().send(job);
+  }
+
+  // The kernel has started this process where there was little to do.
+  JobPlace place_of(const Slot& slot) const {
+    return {static_cast<unsigned>(slots_.size()), first_processor_ + static_cast<unsigned>(&slot - slots_.data())};
   }
 
   // Nothing if all trials that are left wait for plans. Of a fault of the planner each trial of the plan has a row.
@@ -153,7 +146,7 @@ class Supervisor {
       return trial;
     }
     while (const auto number = next_number()) {
-      OpenTrial trial(experiment_, blank_record(experiment_, *number));
+      OpenTrial trial(row_of(experiment_, *number));
       const std::string plan = plan_of(*number);
       if (!plans_.has(plan)) return trial;
       StoredPlan stored = plans_.read_call(plan);
@@ -186,12 +179,6 @@ class Supervisor {
   }
   static fs::path scratch_plan(const Slot& slot) { return slot.scratch->path() / "plan.csv"; }
 
-  // For one trial.
-  void allow_cpu(Slot& slot) const {
-    slot.worker->process().allow_cpu(
-        processor_time_s(experiment_.limits.trial_wall_time_s, static_cast<unsigned>(slots_.size())));
-  }
-
   fs::path stored_trace(std::uint64_t trial) const { return trace_path(settings_.run_directory, trial); }
   fs::path scratch_trace(const Slot& slot, std::uint64_t trial) const {
     return slot.scratch->path() / stored_trace(trial).filename();
@@ -223,7 +210,7 @@ class Supervisor {
   void read_messages(Slot& slot, bool all) {
     LineChannel& channel = slot.worker->channel();
     if (slot.listening && channel.has_input()) slot.listening = channel.fill();
-    while (all && slot.listening && !channel.is_flooded() && channel.has_input()) slot.listening = channel.fill();
+    while (all && slot.listening && channel.has_input()) slot.listening = channel.fill();
     try {
       const WorkerProcess* const sender = slot.worker.get();
       while (slot.worker.get() == sender)
@@ -231,37 +218,34 @@ class Supervisor {
           read_message(slot, *message);
         else
           break;
-      if (slot.worker.get() == sender && channel.is_flooded()) throw UnbelievableMessage("longer than any may be");
-    } catch (const nlohmann::json::exception&) {
-      breach(slot, "that cannot be read");
-    } catch (const UnbelievableMessage& message) {
-      breach(slot, message.what());
+    } catch (const nlohmann::json::exception& error) {  // somebody outside writes to the channel
+      end_worker(slot, worker_error(fmt::format("its worker sent a message that cannot be read: {}", error.what())),
+                 slot.trials_begun > 1);
     }
   }
 
-  void breach(Slot& slot, const std::string& text) {
-    FaultRecord fault = fault_at(slot.worker->last_call());
-    fault.kind = fault_kind::abi_breach;
-    // the plugin that runs now need not be the one
-    fault.detail += fmt::format("a plugin of this trial wrote to the channel of its worker: a message {}", text);
-    end_worker(slot, std::move(fault), slot.trials_begun > 1);
+  // Of a process, not of a plugin.
+  static FaultRecord worker_error(std::string detail) {
+    FaultRecord fault;
+    fault.kind = fault_kind::worker_error;
+    fault.detail = std::move(detail);
+    return fault;
   }
 
   void read_message(Slot& slot, const nlohmann::json& message) {
     const auto type = message.at("type").get<std::string>();
     if (!slot.ready)
       read_start(slot, type, message);
-    else if (!slot.trial)
-      throw UnbelievableMessage("without a trial");
-    else if (type == "error")
+    else if (type == "late_fault")
+      blame_last_trial(slot, message.get<FaultRecord>());
+    else if (type == "error" && slot.trial)
       worker_gave_up(slot, message);
-    else
+    else if (slot.trial)
       read_trial_message(slot, type, message);
   }
 
   void read_start(Slot& slot, const std::string& type, const nlohmann::json& message) {
     if (type == "error") throw_error(message);
-    if (type != "ready") throw UnbelievableMessage("before it was ready");
     if (message.at("digest").get<std::string>() != digest_)
       throw InputError(experiment_.file.string() + ": changed (it, a scenario or a plugin) while it was being run");
     slot.ready = true;
@@ -276,25 +260,23 @@ class Supervisor {
 
   void read_trial_message(Slot& slot, const std::string& type, const nlohmann::json& message) {
     if (type == "planned") return store_plan(slot, message);
-    const OpenTrial::State state = slot.trial->take(message);
+    const bool is_over = slot.trial->take(message);
     if (type == "began") {
       ++slot.trials_begun;
       kills_between_trials_ = 0;
     }
-    if (type == "fault" && state != OpenTrial::State::running) end_process(slot);  // fatal
-    settle(slot, state);
+    if (is_over) finish(slot);
   }
 
   // Other trials may have it from now on, however this one ends.
   void store_plan(Slot& slot, const nlohmann::json& message) {
-    slot.trial->check_sender(message);
-    if (!std::exchange(slot.makes_plan, false)) throw UnbelievableMessage("of a plan that was not asked for");
     const std::string name = plan_of(slot.trial->record().id);
     const fs::path csv = plans_.csv_file(name);
     const auto make_folder = [&] { fs::create_directories(csv.parent_path()); };
     make_folder();
     if (!store_file(scratch_plan(slot), csv, make_folder))
-      throw UnbelievableMessage("of a plan that is not in the scratch folder of the worker");
+      return end_worker(slot, worker_error("the plan was deleted or replaced in the scratch folder of the worker"),
+                        slot.trials_begun > 1);
     StoredPlan plan = message.get<StoredPlan>();
     plan.fault.reset();
     plans_.write_call(name, std::move(plan));
@@ -321,21 +303,13 @@ class Supervisor {
     return plans && fault.plugin == planner.info.id ? &fault : nullptr;
   }
 
-  void settle(Slot& slot, OpenTrial::State state) {
-    if (state == OpenTrial::State::done) finish(slot);
-    if (state == OpenTrial::State::ended_by_fault) run_again(slot);
-  }
-
   // The worker cannot write a file, or the like. The machine has failed if it fails in a fresh worker, and here too.
   void worker_gave_up(Slot& slot, const nlohmann::json& message) {
-    slot.trial->check_sender(message);
     const auto text = message.at("text").get<std::string>();
     if (slot.trial->worker_failed && message.at("machine").get<bool>() &&
-        machine_fails(whole_number<int>(message.at("number"))))
+        machine_fails(message.at("number").get<int>()))
       throw MachineError(text);
-    FaultRecord fault = fault_at(slot.worker->last_call());
-    fault.kind = fault_kind::worker_error;
-    fault.detail += text;
+    FaultRecord fault = worker_error(text);
     const bool again = !std::exchange(slot.trial->worker_failed, true);
     end_worker(slot, std::move(fault), again);
   }
@@ -348,10 +322,8 @@ class Supervisor {
 
   void finish(Slot& slot) {
     if (!store_trace_of(slot)) {
-      FaultRecord fault = fault_at(slot.worker->last_call());
-      fault.kind = fault_kind::worker_error;
-      fault.detail += "the trace was deleted or replaced in the scratch folder of the worker";
-      return end_worker(slot, std::move(fault), slot.trials_begun > 1);
+      return end_worker(slot, worker_error("the trace was deleted or replaced in the scratch folder of the worker"),
+                        slot.trials_begun > 1);
     }
     TrialRecord record = slot.trial->take_record();
     record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
@@ -392,60 +364,24 @@ class Supervisor {
     slot.trial.reset();
   }
 
-  // Ends a worker whose call, trial or start takes too long.
+  // Ends a worker whose trial or start takes too long, although it watches over its guests itself.
   void check_time(Slot& slot) {
     if (slot.ready && !slot.trial) return;
     const auto longest_ns =
         static_cast<std::int64_t>(experiment_.limits.trial_wall_time_s * static_cast<double>(second_ns));
-    const NotedCall call = slot.worker->last_call();
-    FaultRecord fault = fault_at(call);
+    if (!slot.worker->process().is_late(watchdog_.elapsed_ns(slot.work.start_ns), slot.work.waited_before_ns,
+                                        2 * longest_ns + worker_limit_ns))
+      return;
+    FaultRecord fault =
+        worker_error(fmt::format("the {} took longer than trial_wall_time_s = {} s",
+                                 slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s));
     fault.kind = fault_kind::hang;
-    if (is_late(slot, slot.work, longest_ns)) {
-      fault.detail += fmt::format("the {} took longer than trial_wall_time_s = {} s",
-                                  slot.trial ? "trial" : "start of a worker", experiment_.limits.trial_wall_time_s);
-      return end_worker(slot, std::move(fault), false);
-    }
-    const std::int64_t limit_ns = call.limit_ns > 0 ? std::min(call.limit_ns, longest_ns) : longest_ns;
-    if (!is_overdue(slot, call, limit_ns)) return;
-    fault.detail =
-        fmt::format("did not return within {:.1f} s", static_cast<double>(monotonic_ns() - call.start_ns) * 1e-9);
     end_worker(slot, std::move(fault), false);
-  }
-
-  bool is_late(Slot& slot, const Watch& watch, std::int64_t limit_ns) const {
-    return slot.worker->process().is_late(watchdog_.elapsed_ns(watch.start_ns), watch.waited_before_ns, limit_ns);
-  }
-
-  bool is_overdue(Slot& slot, const NotedCall& call, std::int64_t limit_ns) const {
-    // most calls are short, and cost no look at what the worker has waited
-    if (!watchdog_.is_overdue(call, slot.worker_started_ns, std::min(long_call_ns, limit_ns))) return false;
-    if (slot.long_call.start_ns != call.start_ns)
-      slot.long_call = {call.start_ns, slot.worker->process().waited_for_processor_ns()};
-    return is_late(slot, slot.long_call, limit_ns);
-  }
-
-  void look_at_memory() {
-    next_look_at_memory_ns_ = monotonic_ns() + second_ns / 10;
-    for (Slot& slot : slots_)
-      if (slot.worker) check_memory(slot);
-  }
-
-  // What the kernel's limit on data does not count: shared memory, or all where that limit does not fit the plugins.
-  void check_memory(Slot& slot) {
-    const MemoryInUse used = slot.worker->process().memory_in_use();
-    const double counted_mb = counts_resident_memory_ ? used.resident_mb : used.shared_mb;
-    if (counted_mb <= static_cast<double>(experiment_.limits.memory_mb)) return;
-    FaultRecord fault = fault_at(slot.worker->last_call());
-    fault.kind = fault_kind::out_of_memory;
-    fault.detail +=
-        fmt::format("{:.0f} MB {}in use, more than memory_mb = {}; when this is noticed depends on timing", counted_mb,
-                    counts_resident_memory_ ? "" : "of shared memory ", experiment_.limits.memory_mb);
-    end_worker(slot, std::move(fault), slot.trials_begun > 1);
   }
 
   // The worker ended by itself, or was killed from outside.
   void worker_ended(Slot& slot) {
-    FaultRecord fault = fault_of_end(*slot.worker, experiment_.limits.memory_mb);
+    FaultRecord fault = worker_error("the worker " + slot.worker->process().wait().explain(0));
     const bool killed = slot.worker->process().wait().killed_from_outside;
     const bool has_begun = slot.trial && slot.trial->has_begun();
     if (killed && !has_begun && ++kills_between_trials_ < most_kills_between_trials) return drop_worker(slot);
@@ -479,13 +415,12 @@ class Supervisor {
     }
     end_process(slot);
     if (again) {
-      // of an instance of an earlier trial
-      if (fault.function == "destroy" && slot.last_trial) blame_last_trial(slot, fault);
       note(fmt::format("trial {} is run again: {}", slot.trial->record().id, text_of(fault)));
       slot.trial->restart();
       return run_again(slot);
     }
-    settle(slot, slot.trial->end_attempt(std::move(fault)));
+    slot.trial->end_by(std::move(fault));
+    finish(slot);
   }
 
   // The worker ended between two trials.
@@ -508,16 +443,12 @@ class Supervisor {
       if (!slot.worker) continue;
       const bool ended =
           watchdog_.wait(slot.worker->process().ended().number(), [&] { return monotonic_ns() >= until_ns; });
-      FaultRecord fault =
-          ended ? fault_of_end(*slot.worker, experiment_.limits.memory_mb) : fault_at(slot.worker->last_call());
-      if (!ended) {
-        fault.kind = fault_kind::hang;
-        fault.detail += fmt::format("did not return within {} s", shutdown_limit_ns / second_ns);
-      }
       slot.worker->log().copy_rest(log_);
-      const bool is_fault = !ended || slot.worker->last_call().inside || slot.worker->process().wait().signal != 0;
-      if (is_fault && slot.last_trial && !slot.worker->process().wait().killed_from_outside)
-        blame_last_trial(slot, std::move(fault));
+      if (ended)
+        read_messages(slot, true);
+      else if (slot.last_trial)
+        blame_last_trial(
+            slot, worker_error(fmt::format("its worker did not end within {} s", shutdown_limit_ns / second_ns)));
     }
   }
 
@@ -530,10 +461,8 @@ class Supervisor {
   const std::string digest_;
   const std::vector<Combination> combinations_;
   const StoredPlans plans_;
-  const bool watches_memory_ = experiment_.limits.memory_mb > 0 && !MemoryGroup::available();
-  const bool counts_resident_memory_ = counts_resident_memory(experiment_);
-  std::int64_t next_look_at_memory_ns_ = 0;
   const Descriptor log_;
+  const unsigned first_processor_ = static_cast<unsigned>(std::max(0, sched_getcpu()));
   Watchdog watchdog_;
   PlannedTrials planned_;
   std::vector<OpenTrial> again_;                   // trials that have begun and lost their worker

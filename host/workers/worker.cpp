@@ -2,13 +2,12 @@
 #include "host/workers/worker.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -18,17 +17,14 @@
 
 #include "core/bytes/file.hpp"
 #include "core/trace/trace_encoder.hpp"
-#include "core/trace/trace_reader.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/identity.hpp"
-#include "host/process/box.hpp"
-#include "host/process/child_process.hpp"
+#include "host/guests/guest_process.hpp"
 #include "host/process/line_channel.hpp"
+#include "host/process/one_processor.hpp"
 #include "host/process/orphans.hpp"
-#include "host/process/own_process.hpp"
+#include "host/trial/ask_metric.hpp"
 #include "host/trial/kept_trace.hpp"
-#include "host/trial/log_line.hpp"
-#include "host/trial/measure.hpp"
 #include "host/trial/run_trial.hpp"
 #include "host/workers/messages.hpp"
 #include "host/workers/scratch_folder.hpp"
@@ -38,6 +34,8 @@ namespace dmrp::host {
 
 namespace {
 
+constexpr int most_kills_of_guests = 4;  // from outside, in one trial: then a plugin of it is to blame
+
 FaultRecord record_of(const PluginFault& fault) {
   FaultRecord record;
   record.kind = fault.kind();
@@ -46,6 +44,7 @@ FaultRecord record_of(const PluginFault& fault) {
   record.step = fault.step();
   record.robot = fault.robot();
   record.detail = fault.what();
+  if (const auto* const end = dynamic_cast<const GuestEnd*>(&fault)) record.signal = end->signal();
   return record;
 }
 
@@ -54,33 +53,17 @@ nlohmann::json typed(const char* type, nlohmann::json message) {
   return message;
 }
 
-mode_t current_umask() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return mask;
-}
-
-// What the worker says. Copies of it say nothing.
+// What the worker says.
 class Sender {
  public:
   explicit Sender(LineChannel& channel) : channel_(channel) {}
 
-  void begin(const Job& job) {
-    trial_ = job.trial;
-    own_process::set_stamp(job.stamp);
-    send({{"type", "began"}});
-  }
-
-  void send(nlohmann::json message) {
-    if (own_process::is_other_process()) _exit(0);
-    message["trial"] = trial_;
-    message["stamp"] = own_process::stamp();
+  void send(const nlohmann::json& message) const {
     if (!channel_.send(message)) _exit(channel_closed_exit);
   }
 
  private:
   LineChannel& channel_;
-  std::uint64_t trial_ = 0;
 };
 
 void write_text(const std::string& file, const std::string& text) {
@@ -89,32 +72,81 @@ void write_text(const std::string& file, const std::string& text) {
     throw std::system_error(errno, std::generic_category(), file);
 }
 
+GuestLimits guest_limits(const Experiment& experiment, const WorkerTask& task) {
+  GuestLimits limits;
+  limits.scratch = task.scratch / "plugins";
+  limits.memory_mb = experiment.limits.memory_mb;
+  limits.counts_resident = counts_resident_memory(experiment);
+  limits.data_mb = MemoryGroup::available() || limits.counts_resident ? 0 : limits.memory_mb;
+  limits.processes = experiment.limits.processes;
+  limits.trial_wall_time_s = experiment.limits.trial_wall_time_s;
+  limits.sharers = task.jobs;
+  return limits;
+}
+
 class Worker {
  public:
-  Worker(const Experiment& experiment, const std::filesystem::path& run_directory, LineChannel& channel, Sender& sender,
-         CallNote& note)
+  Worker(const Experiment& experiment, const WorkerTask& task, const Nursery& nursery, LineChannel& channel,
+         Sender& sender)
       : experiment_(experiment),
-        plans_(run_directory),
+        plans_(run_directory_of(task.scratch)),
         combinations_(combinations(experiment)),
         channel_(channel),
         sender_(sender),
-        guard_(note),
-        pool_(experiment.libraries, guard_,
-              [&](std::int32_t level, const std::string& plugin, const std::string& text) {
-                std::fputs(log_line(level, plugin, text, logged_, note).c_str(), stderr);
-              }) {}
+        nursery_(nursery),
+        limits_(guest_limits(experiment, task)),
+        processor_(task.processor),
+        guests_(experiment.libraries,
+                [this](const LibraryUse& library, std::uint32_t kind) { return start_guest(library, kind); }) {}
 
   void serve() {
-    if (experiment_.limits.processes) guard_.allow_processes();
     sender_.send({{"type", "ready"}, {"digest", loaded_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
-      sender_.begin(job);
+      sender_.send({{"type", "began"}});
       run(job);
     }
+    attempt_late([&] { guests_.shut_down(); });
   }
 
  private:
+  // A trial and what is known of it.
+  struct Open {
+    const Job& job;
+    const Combination& combination;
+    const VariantWorld& world;
+    std::uint64_t seed;
+    std::optional<StoredPlan> plan{};  // as stored, or as an attempt has made it
+    TrialDone done{};
+    int killed = 0;
+  };
+
+  // A planner may have threads, and is asked seldom.
+  std::unique_ptr<Guest> start_guest(const LibraryUse& library, std::uint32_t kind) {
+    const auto started = [&](pid_t process) {
+      if (kind != DMRP_KIND_GLOBAL_PLANNER) processor_.add(process);
+    };
+    return std::make_unique<GuestProcess>(nursery_, library, limits_, GuestTask::load, spool_, started,
+                                          [this] { return look(); });
+  }
+
+  // While guests are asked. Why the trial may not go on; "" if it may.
+  std::string look() {
+    watchdog_.look();
+    if (!is_late(watchdog_.elapsed_ns(trial_started_ns_), waited_ns() - waited_before_ns_,
+                 nanoseconds(limits_.trial_wall_time_s)))
+      return "";
+    return fmt::format("the trial took longer than trial_wall_time_s = {} s", experiment_.limits.trial_wall_time_s);
+  }
+
+  std::int64_t waited_ns() const {
+    std::int64_t waited_ns = waited_for_processor_ns(getpid());
+    guests_.for_each([&](const Guest& guest) {
+      waited_ns += static_cast<const GuestProcess&>(guest).process().waited_for_processor_ns();
+    });
+    return waited_ns;
+  }
+
   const VariantWorld& variant(std::uint32_t scenario) {
     auto& made = variants_[scenario];
     if (!made) made = std::make_unique<VariantWorld>(experiment_, experiment_.scenarios[scenario]);
@@ -124,72 +156,124 @@ class Worker {
   void run(const Job& job) {
     const TrialId id = trial_id(job.trial, combinations_.size());
     const Combination& combination = combinations_[id.combination];
-    const std::uint64_t seed = trial_seed(experiment_, job.trial);
     const VariantWorld& shared = variant(combination.scenario);
     std::unique_ptr<const VariantWorld> own;
     if (const ScenarioVariant& scenario = experiment_.scenarios[combination.scenario]; is_drawn(scenario))
       own = std::make_unique<VariantWorld>(
           experiment_, scenario, shared,
           task_seed(experiment_, scenario.scenario.name, scenario.wishes, id.repetition));
-    const VariantWorld& world = own ? *own : shared;
+    std::filesystem::create_directories(limits_.scratch);  // a plugin of an earlier trial can have deleted it
+    Open trial = {job, combination, own ? *own : shared, trial_seed(experiment_, job.trial)};
+    trial.done.task = task_hash(trial.world.scenario);
+    if (!job.plan.empty() && job.new_plan.empty()) trial.plan = plans_.read(job.plan);
+    if (trial.plan) trial.done.timing = trial.plan->timing;
+    while (!attempt(trial)) {
+    }
+    sender_.send(typed("done", trial.done));
+    if (own) attempt_late([&] { guests_.clear(); });  // instances may keep pointers into their world
+  }
 
-    umask(umask_);  // a plugin of an earlier trial can have changed it
-    KeptTrace kept(job.trace_file, job.scratch_file);
+  // False: the trial is run again in fresh guests.
+  bool attempt(Open& trial) {
+    KeptTrace kept(trial.job.trace_file, trial.job.scratch_file, most_trace_bytes_in_memory());
     core::TraceEncoder trace(
-        world.view.world(), [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { kept.write(t_ns, record); },
-        kept.foxglove());
-
-    guard_.reset_timing();
-    logged_ = {job.trial, world.simulation.step_ns};
-    std::optional<StoredPlan> stored;
-    TrialDone done;
-    done.task = task_hash(world.scenario);
+        trial.world.view.world(),
+        [&](std::int64_t t_ns, std::span<const std::uint8_t> record) { kept.write(t_ns, record); }, kept.foxglove());
+    trial_started_ns_ = monotonic_ns();
+    waited_before_ns_ = waited_ns();
     try {
-      const TrialEnding ending = run_trial(
-          {experiment_, combination, world, seed, first_plan_of(job, combination, stored, done.timing)}, pool_, trace);
-      done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
-      done.sim_time_s = ending.sim_time_s;
-      guard_.check_no_children();
+      guests_.begin_trial({trial.job.trial, trial.world.simulation.step_ns});
+      const TrialEnding ending =
+          run_trial({experiment_, trial.combination, trial.world, trial.seed, first_plan_of(trial)}, guests_, trace);
+      trial.done.outcome = ending.succeeded ? trial_outcome::succeeded : trial_outcome::failed;
+      trial.done.sim_time_s = ending.sim_time_s;
+    } catch (const GuestEnd& end) {
+      if (is_run_again(trial, end)) return false;
+      end_by(trial, end, kept);
+      return true;
     } catch (const PluginFault& fault) {
-      done.outcome = trial_outcome::fault;
-      kept.finish();
-      report(fault);
-      pool_.clear();
+      end_by(trial, fault, kept);
+      return true;
     }
-    if (done.outcome != trial_outcome::fault) {
-      std::vector<MetricEvent> events;
-      measure_all(kept, world, seed, job, events);
-      finish(kept, std::move(events));
+    measure_all(kept, trial);
+    add_timing(trial);
+    return true;
+  }
+
+  // An earlier trial can have left its mark on the guest, or somebody outside has killed it.
+  bool is_run_again(Open& trial, const GuestEnd& end) {
+    const bool again =
+        end.killed() ? ++trial.killed < most_kills_of_guests : end.depends_on_past() && guests_.have_a_past();
+    if (!again) return false;
+    std::fprintf(stderr, "[info] dmrp-host: trial %llu is run again: %s: %s\n",
+                 static_cast<unsigned long long>(trial.job.trial), end.kind(), end.text().c_str());
+    end_guests();
+    return true;
+  }
+
+  void end_guests() {
+    guests_.end_all();
+    kill_strays();
+  }
+
+  // Processes that plugins have left behind.
+  void kill_strays() const {
+    std::vector<pid_t> own = {nursery_.number()};
+    guests_.for_each(
+        [&](const Guest& guest) { own.push_back(static_cast<const GuestProcess&>(guest).process().number()); });
+    kill_orphans(own);
+  }
+
+  void end_by(Open& trial, const PluginFault& fault, KeptTrace& kept) {
+    trial.done.outcome = trial_outcome::fault;
+    kept.finish();
+    add_timing(trial);
+    sender_.send(typed("fault", record_of(fault)));
+    if (fault.fatal())
+      end_guests();
+    else
+      attempt_late([&] { guests_.clear(); });
+  }
+
+  // A guest that ends by this question has done its work.
+  void add_timing(Open& trial) {
+    try {
+      for (TimingReason& reason : guests_.timing()) trial.done.timing.push_back(std::move(reason));
+    } catch (const PluginFault&) {
+      end_guests();
     }
-    for (TimingReason& reason : guard_.timing()) done.timing.push_back(std::move(reason));
-    sender_.send(typed("done", done));
-    if (own) pool_.clear();  // instances may keep pointers into their world
+  }
+
+  // What the plugins do after a trial is over; a fault is told of the last one.
+  template <class Body>
+  void attempt_late(Body&& body) {
+    try {
+      body();
+    } catch (const PluginFault& fault) {
+      sender_.send(typed("late_fault", record_of(fault)));
+      end_guests();
+    }
   }
 
   // As stored, or to be stored. A trial is as repeatable as the plan that it gets.
-  FirstPlan first_plan_of(const Job& job, const Combination& combination, std::optional<StoredPlan>& stored,
-                          std::vector<TimingReason>& timing) {
-    if (job.plan.empty()) return {};
+  FirstPlan first_plan_of(Open& trial) {
+    if (trial.job.plan.empty()) return {};
     const std::string& planner =
-        experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)].info.id;
-    if (job.new_plan.empty()) {
-      stored = plans_.read(job.plan);
-      timing = stored->timing;
-    }
-    return {stored ? &stored->answer : nullptr, [&, planner](const PlannerAnswer& made) {
-              if (!stored) return store(job, planner, made);
-              timing.clear();
-              if (!same_plan(made, stored->answer))
-                timing.push_back({planner, "its first plan is another than the run has stored"});
+        experiment_.global_planners[static_cast<std::size_t>(trial.combination.global_planner)].info.id;
+    return {trial.plan ? &trial.plan->answer : nullptr, [&, planner](const PlannerAnswer& made) {
+              if (!trial.plan) return store(trial, planner, made);
+              trial.done.timing.clear();
+              if (!same_plan(made, trial.plan->answer))
+                trial.done.timing.push_back({planner, "its first plan is another than the run has stored"});
             }};
   }
 
-  void store(const Job& job, const std::string& planner, const PlannerAnswer& made) {
-    std::vector<TimingReason> timing = guard_.timing();
+  void store(Open& trial, const std::string& planner, const PlannerAnswer& made) {
+    std::vector<TimingReason> timing = guests_.timing();
     std::erase_if(timing, [&](const TimingReason& reason) { return reason.plugin != planner; });
-    umask(umask_);  // the planner can have changed it
-    write_text(job.new_plan, plan_csv(made.paths));
-    sender_.send(typed("planned", StoredPlan{made, std::move(timing)}));
+    write_text(trial.job.new_plan, plan_csv(made.paths));
+    trial.plan = StoredPlan{made, std::move(timing)};
+    sender_.send(typed("planned", *trial.plan));
   }
 
   static void finish(KeptTrace& kept, std::vector<MetricEvent> events) {
@@ -201,35 +285,47 @@ class Worker {
     kept.finish();
   }
 
-  void report(const PluginFault& fault) {
-    nlohmann::json message = typed("fault", record_of(fault));
-    message["fatal"] = fault.fatal();
-    sender_.send(std::move(message));
-    // no function of the library may be called, not even destroy(): another worker continues
-    if (fault.fatal()) _exit(1);
+  void measure_all(KeptTrace& kept, const Open& trial) {
+    spool_ = kept.spool_descriptor();
+    if (spool_ >= 0) end_guests_of_metrics();  // those that are started now have the spool
+    std::vector<MetricEvent> events;
+    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) measure(kept, trial, i, events);
+    if (spool_ >= 0) end_guests_of_metrics();
+    spool_ = -1;
+    finish(kept, std::move(events));
   }
 
-  void measure_all(KeptTrace& kept, const VariantWorld& world, std::uint64_t seed, const Job& job,
-                   std::vector<MetricEvent>& events) {
-    core::TraceReader reader(kept.records(), core::TraceExtent::samples);
-    for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i) {
-      if (std::find(job.skip_metrics.begin(), job.skip_metrics.end(), i) != job.skip_metrics.end()) continue;
-      sender_.send({{"type", "measuring"}, {"index", i}});
-      const PluginUse& use = experiment_.metrics[i];
+  void end_guests_of_metrics() {
+    for (const PluginUse& metric : experiment_.metrics) guests_.end(metric.library);
+  }
+
+  void measure(KeptTrace& kept, const Open& trial, std::uint32_t index, std::vector<MetricEvent>& events) {
+    const std::uint32_t library = experiment_.metrics[index].library;
+    const auto robots = static_cast<std::uint32_t>(trial.world.scenario.robots.size());
+    const std::int64_t budget_ns = nanoseconds(experiment_.limits.step_time_s);
+    for (bool fresh = false;; fresh = true) {
       try {
-        MetricResult result = measure(reader, world.walking_grids, pool_.get(use, DMRP_NO_ROBOT), use.info, i, seed,
-                                      static_cast<std::int64_t>(experiment_.limits.step_time_s * 1e9));
-        guard_.check_no_children();
-        send_in_pieces(result, [&](const MetricResult& piece, bool last) {
-          nlohmann::json message = typed("metric", piece);
-          message["last"] = last;
-          sender_.send(std::move(message));
-        });
+        MetricResult result = ask_metric(guests_, experiment_.metrics[index], index,
+                                         {kept.in_memory(), &trial.world, robots, trial.seed}, budget_ns);
+        send_in_pieces(result, [&](const MetricResult& piece) { sender_.send(typed("metric", piece)); });
         std::move(result.events.begin(), result.events.end(), std::back_inserter(events));
+        return;
       } catch (const PluginFault& fault) {
-        report(fault);
+        const auto* const end = dynamic_cast<const GuestEnd*>(&fault);
+        if (fault.fatal()) {
+          guests_.end(library);
+          kill_strays();
+        }
+        if (end && end->depends_on_past() && !fresh) continue;  // another trial or metric can have left its mark
+        sender_.send(typed("fault", record_of(fault)));
+        return;
       }
     }
+  }
+
+  // A trace that does not fit into the memory of a guest goes to a spool.
+  static std::size_t most_trace_bytes_in_memory() {
+    return std::min(core::TraceRecords::small_trace_bytes, GuestMemory::part_bytes() / 2);
   }
 
   const Experiment& experiment_;
@@ -237,17 +333,24 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   Sender& sender_;
-  const mode_t umask_ = current_umask();
-  CallGuard guard_;
-  std::optional<LoggedTrial> logged_;
-  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // instances keep pointers into them
-  InstancePool pool_;
+  const Nursery& nursery_;
+  const GuestLimits limits_;
+  int spool_ = -1;                                                   // of the trial that is measured
+  std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // guests keep copies of them
+  OneProcessor processor_;
+  Watchdog watchdog_;
+  std::int64_t trial_started_ns_ = 0;
+  std::int64_t waited_before_ns_ = 0;  // for a processor, by this process and its guests
+  Guests guests_;
 };
 
-// Without a child process: the supervisor has already probed these libraries.
-Probe read_descriptors(const std::filesystem::path& file) {
-  const Library library(file);
-  return {library.plugins(), library.warnings(), ""};
+// As the supervisor has probed them.
+PluginSource source_of(const nlohmann::json& setup) {
+  return [setup](const std::filesystem::path& file) -> Probe {
+    const auto found = setup.at("libraries").find(file.string());
+    if (found == setup.at("libraries").end()) return {{}, {}, {}, "the supervisor has left it out"};
+    return {found->at("plugins").get<std::vector<PluginInfo>>(), {}, found->at("objects"), ""};
+  };
 }
 
 void send_error(Sender& sender, const std::string& text, const std::exception& error) {
@@ -261,23 +364,16 @@ void send_error(Sender& sender, const std::string& text, const std::exception& e
 }  // namespace
 
 int run_worker(const WorkerTask& task) {
-  // processes that a plugin starts do not inherit them
   for (const int descriptor : {task.read_end, task.write_end}) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   LineChannel channel{Descriptor(task.read_end), Descriptor(task.write_end)};
   Sender sender(channel);
-  setenv("TMPDIR", task.scratch.c_str(), 1);  // temporary files of plugins go there, too
   try {
-    own_process::watch({task.read_end, task.write_end});
     adopt_orphans();
-    const SharedCallNote shared{Descriptor(task.note)};
-    set_resource_limits(task.limits.memory_mb);
-    box::enter(task.limits.processes, &shared.note().refused, task.scratch);
-    const auto refuse_unloadable = [&](const std::filesystem::path& file) -> Probe {
-      const auto& all = task.unloadable;
-      return {{}, {}, std::find(all.begin(), all.end(), file) == all.end() ? "" : "the supervisor has left it out"};
-    };
-    const Experiment experiment = load_experiment(task.experiment, task.trials, &read_descriptors, refuse_unloadable);
-    Worker(experiment, run_directory_of(task.scratch), channel, sender, shared.note()).serve();
+    const Nursery nursery;  // before anything is known
+    const auto setup = channel.receive();
+    if (!setup) return 1;
+    const Experiment experiment = load_experiment(task.experiment, task.trials, source_of(*setup));
+    Worker(experiment, task, nursery, channel, sender).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;

@@ -94,7 +94,7 @@ host::Experiment load(const std::string& text) {
   std::ofstream(file) << text;
   const auto read_descriptors = [](const fs::path& library_file) {
     const host::Library library(library_file);
-    return host::Probe{library.plugins(), library.warnings(), ""};
+    return host::Probe{library.plugins(), library.warnings(), library.objects(), ""};
   };
   try {
     host::Experiment experiment = host::load_experiment(file, 0, read_descriptors);

@@ -16,7 +16,6 @@
 #include "core/world/world.hpp"
 #include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
-#include "host/trial/sensor_extensions.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"
 
 namespace dmrp::bench {
@@ -52,7 +51,7 @@ host::Instance& start_people(const TrialUnderTest& trial, host::InstancePool& po
 struct Driver {
   Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
       : sensors(std::make_shared<host::RobotSensors>(world, robot, lidar, seed)),
-        extensions(sensors_of(robot)),
+        extensions(host::readings_of(sensors_of(robot))),
         recorder([this](const std::string& id) { return extensions.extension(id); }) {}
 
   std::vector<std::shared_ptr<host::RobotSensors>> sensors_of(std::uint32_t robot) const {
@@ -62,7 +61,7 @@ struct Driver {
   }
 
   std::shared_ptr<host::RobotSensors> sensors;
-  host::SensorExtensions extensions;
+  host::SensorReadings extensions;
   Recorder recorder;
   host::Instance* controller = nullptr;
   dmrp_local_controller table{};

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
-#include "host/trial/instance_pool.hpp"
 #include "host/trial/world/variant_world.hpp"
 #include "tests/bench/bench_controllers_tape.hpp"
+#include "tests/support/instance_pool.hpp"
 
 namespace dmrp::bench {
 

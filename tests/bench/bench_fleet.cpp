@@ -30,10 +30,10 @@ constexpr std::int64_t driven_quickly_ns = 1'000'000'000;
 class Drive {
  public:
   Drive(const host::Experiment& experiment, const host::Combination& combination, const host::VariantWorld& variant,
-        std::uint64_t seed, host::InstancePool& pool)
+        std::uint64_t seed, host::Guests& guests)
       : world_(variant.scenario, variant.types, variant.simulation, variant.geometry, variant.routes, seed),
         trace_(variant.view.world(), [](std::int64_t, std::span<const std::uint8_t>) {}),
-        plugins_(pool, experiment, combination, variant, world_, seed, trace_),
+        plugins_(guests, experiment, combination, variant, world_, seed, trace_),
         dispatcher_(variant, world_),
         period_ns_(variant.simulation.control_period_ns) {
     plan_ = plugins_.plan(nullptr, 0);
@@ -61,25 +61,17 @@ class Drive {
   double tick(std::int64_t step) {
     dispatcher_.update_targets();
     plugins_.sense();
-    guided_.clear();
+    driven_.clear();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) {
       if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE) continue;
-      if (const auto path = dispatcher_.take_new_path(i); !path.empty()) plugins_.set_path(i, path, step);
-      guided_.push_back({i, dispatcher_.guidance(i)});
+      driven_.push_back({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)});
     }
-    if (guided_.empty()) return 0.0;
-    commands_.clear();
+    if (driven_.empty()) return 0.0;
     const double from_s = bench::processor_s();
-    if (plugins_.has_central_controller()) {
-      const auto commands = plugins_.control_all(guided_, step);
-      commands_.assign(commands.begin(), commands.end());
-    } else {
-      for (const host::GuidedRobot& robot : guided_)
-        commands_.push_back(plugins_.control(robot.robot, robot.guidance, step));
-    }
+    const auto commands = plugins_.control(driven_, step);
     const double duration_s = bench::processor_s() - from_s;
-    for (std::size_t i = 0; i < guided_.size(); ++i)
-      world_.set_command(guided_[i].robot, commands_[i].value_or(dmrp_twist{}));
+    for (std::size_t i = 0; i < driven_.size(); ++i)
+      world_.set_command(driven_[i].robot, commands[i].value_or(dmrp_twist{}));
     return duration_s;
   }
 
@@ -89,13 +81,12 @@ class Drive {
   host::Dispatcher dispatcher_;
   std::int64_t period_ns_;
   host::Plan plan_;
-  std::vector<host::GuidedRobot> guided_;
-  std::vector<std::optional<dmrp_twist>> commands_;
+  std::vector<host::TrialPlugins::DrivenRobot> driven_;
 };
 
 host::Probe descriptors_of(const std::filesystem::path& file) {
   const host::Library library(file);
-  return {library.plugins(), library.warnings(), ""};
+  return {library.plugins(), library.warnings(), library.objects(), ""};
 }
 
 std::vector<bench::Row> measure(bool quick) {
@@ -109,8 +100,9 @@ std::vector<bench::Row> measure(bool quick) {
     for (int round = 0; round < (quick ? 1 : 3); ++round) {
       host::CallNote note{};
       host::CallGuard guard(note);
-      host::InstancePool pool(experiment.libraries, guard, [](std::int32_t, const std::string&, const std::string&) {});
-      Drive drive(experiment, combination, variant, seed, pool);
+      host::Guests guests = host::Guests::local(experiment.libraries, note, guard,
+                                                [](std::int32_t, const std::string&, const std::string&) {});
+      Drive drive(experiment, combination, variant, seed, guests);
       best_ms = std::min(best_ms, drive.mean_tick_ms(quick ? driven_quickly_ns : driven_ns));
     }
     const auto controller = static_cast<std::size_t>(combination.local_controller);

@@ -33,10 +33,10 @@ note() {
   table[$row]+="${table[$row]:+; }$2"
 }
 note_all() {
-  local row attack kind function detail late
+  local row attack kind
   for row in "${@:2}"; do
-    IFS='|' read -r attack kind function detail late <<<"$row"
-    note "$1" "$attack" "fault, \`$kind\`" "$([[ -z ${late:-} ]] && echo yes || echo "the plugin that ran then")"
+    IFS='|' read -r attack kind _ <<<"$row"
+    note "$1" "$attack" "fault, \`$kind\`" yes
   done
 }
 # expect_none_left PATTERN: a process that was killed may need a moment to be gone
@@ -51,59 +51,64 @@ expect_same() {
   [[ $(values "$scratch/$1") == "$(values "$scratch/alone")" ]] || fail "$1: attacks change the values of others"
 }
 
-# takes the 20 s that a library may take to load; what comes of it is looked at further below
-cp "$library" "$scratch/waits.so"
-DMRP_TEST_AT_LOAD="wait" "$host" plugins "$scratch/waits.so" >"$scratch/waits.stdout" 2>"$scratch/waits.stderr" &
-waiting=$!
+# take the 20 s that a library may take to load; what comes of it is looked at further below
+declare -A waiting=()
+for what in wait close; do
+  cp "$library" "$scratch/$what.so"
+  DMRP_TEST_AT_LOAD="$what" "$host" plugins "$scratch/$what.so" >"$scratch/$what.stdout" 2>"$scratch/$what.stderr" &
+  waiting[$what]=$!
+done
 
 begin alone
 run_with_faults alone 0
 [[ -n $(values "$scratch/alone") ]] || fail "there should be values to compare"
 
-# all in one run: attack|kind|function|detail|whether the fault is noticed later, when another plugin may run
+# all in one run: attack|kind|function|detail
 attacks=(
   'fork and return|abi_breach|step|fork'
   'fork and stay|abi_breach|step|fork'
-  'clone and return|abi_breach|.*|process behind'
-  'forged end|abi_breach|.*|a plugin of this trial wrote to the channel|late'
-  'forged error|abi_breach|.*|a plugin of this trial wrote to the channel|late'
-  'no message|abi_breach|.*|a plugin of this trial wrote to the channel|late'
-  'oversized message|abi_breach|step|wrote to the channel of its worker: a message longer than any'
-  'closed channel|abi_breach|.*|channel .* was closed|late'
-  'closed trace|worker_error|.*|Bad file descriptor|late'
-  'deletes its files|worker_error|.*|trace was deleted or replaced|late'
-  'replaces its trace|worker_error|.*|trace was deleted or replaced|late'
-  'all closed|abi_breach|.*|channel .* was closed|late'
-  'files limited|worker_error|.*|File too large|late'
+  'clone and return|abi_breach|step|process behind'
   'kills itself|crash|step|SIGKILL'
   'traps numbers|abi_breach|step|floating-point control'
-  'writes into the observation|abi_breach|step|wrote into the observation'
-  'writes into the world|abi_breach|trial_end|wrote into the world|late'
-  'late thread|crash|.*|Segmentation fault|late'
+  'late thread|crash|.*|Segmentation fault'
   'burns processors|hang|step|'
 )
-# the sanitizers' memory is not reused, so nothing happens
-if $limited; then attacks+=('quiet heap corruption|crash|.*||late'); fi
-# expect_faults NAME ROW...
+# sanitizers answer to a wrong access themselves
+if $limited; then
+  attacks+=(
+    'writes into the observation|abi_breach|step|wrote into what it may only read'
+    'writes into the world|abi_breach|step|wrote into what it may only read'
+  )
+fi
+# there is nothing of the host in the guest that they reach
+unreachable=("forged end" "forged error" "no message" "oversized message" "closed channel" "closed trace"
+  "all closed" "files limited")
+# without a sandbox it can write where the user can
+unnamed=('deletes its files|worker_error||trace was deleted or replaced'
+  'replaces its trace|worker_error||trace was deleted or replaced')
+# expect_faults NAME PLUGIN ROW...
 expect_faults() {
-  local row attack kind function detail late is_late found
-  for row in "${@:2}"; do
-    IFS='|' read -r attack kind function detail late <<<"$row"
-    is_late=0
-    [[ -z ${late:-} ]] || is_late=1
+  local row attack kind function detail found
+  for row in "${@:3}"; do
+    IFS='|' read -r attack kind function detail <<<"$row"
     found=$(query "$scratch/$1" "SELECT kind, function, detail FROM fault JOIN trial ON trial.id = trial_id
-      WHERE local_controller = '$attack' AND ($is_late OR plugin = 'test.controller.hostile')
-      ORDER BY trial_id LIMIT 1")
+      WHERE local_controller = '$attack' AND plugin = '$2' ORDER BY trial_id LIMIT 1")
     grep -Eq "^$kind\|$function\|.*$detail" <<<"$found" ||
       fail "$attack: '$found' does not match $kind, $function, $detail"
   done
 }
 begin attacks
-for row in "${attacks[@]}"; do hostile attacks "${row%%|*}"; done
+for row in "${attacks[@]}" "${unreachable[@]}" "${unnamed[@]}"; do hostile attacks "${row%%|*}"; done
 run_with_faults attacks 1 --no-box
-expect_faults attacks "${attacks[@]}"
+expect_faults attacks test.controller.hostile "${attacks[@]}"
+expect_faults attacks "" "${unnamed[@]}"
+[[ $(query "$scratch/attacks" "SELECT count(*) FROM trial WHERE outcome = 'fault'") == \
+  $((2 * (${#attacks[@]} + ${#unnamed[@]}))) ]] ||
+  fail "the others should do nothing: $(query "$scratch/attacks" "SELECT local_controller, outcome FROM trial")"
 expect_same attacks
 note_all "no box" "${attacks[@]}"
+for attack in "${unreachable[@]}"; do note "no box" "$attack" "nothing"; done
+for row in "${unnamed[@]}"; do note "no box" "${row%%|*}" "fault, \`worker_error\`" no; done
 
 # in the box, the system call is named
 boxed=(
@@ -123,7 +128,7 @@ for row in "${boxed[@]}"; do hostile boxed "${row%%|*}"; done
 for attack in none threads "files limited"; do hostile boxed "$attack"; done
 if $limited; then # the box and sanitizers exclude each other
   run_with_faults boxed 1
-  expect_faults boxed "${boxed[@]}"
+  expect_faults boxed test.controller.hostile "${boxed[@]}"
   [[ $(query "$scratch/boxed" "SELECT count(*) FROM trial WHERE outcome <> 'fault'
     AND local_controller IN ('none', 'threads', 'files limited')") == 6 ]] || fail "threads may be used in the box"
   expect_same boxed
@@ -195,18 +200,13 @@ for planted in outside pipe; do
 done
 [[ $(<"$scratch/outside") == kept ]] || fail "a file outside has been changed by a link"
 
-# faults that were a plugin's are tried again on demand; late ones need not come again in the same trial
-prompt_faults() {
-  local row late=""
-  for row in "${attacks[@]}"; do [[ $row != *"|late" ]] || late+=", '${row%%|*}'"; done
-  query "$scratch/attacks" "SELECT DISTINCT trial_id FROM fault JOIN trial ON trial.id = trial_id
-    WHERE local_controller NOT IN (''$late) ORDER BY 1"
-}
-before=$(prompt_faults)
+# faults that were a plugin's are tried again on demand
+faulty() { query "$scratch/attacks" "SELECT DISTINCT trial_id FROM fault ORDER BY 1"; }
+before=$(faulty)
 expect_status 1 "$host" "$scratch/attacks.toml" --no-box --quiet --resume --out "$scratch/attacks"
 expect_status 2 "$host" "$scratch/attacks.toml" --quiet --retry-faults --out "$scratch/attacks"
 expect_status 1 "$host" "$scratch/attacks.toml" --no-box --quiet --resume --retry-faults --out "$scratch/attacks"
-[[ -n $before && $(prompt_faults) == "$before" ]] || fail "--retry-faults should find them again"
+[[ -n $before && $(faulty) == "$before" ]] || fail "--retry-faults should find them again"
 expect_same attacks
 
 # stored traces that a plugin deletes are gone, no values are
@@ -273,24 +273,33 @@ fi
 
 # what a library does while it is loaded
 cp "$library" "$scratch/at_load.so"
-for what in none fork stay; do
-  expect_status 0 env DMRP_TEST_AT_LOAD=$what timeout 120 "$host" plugins "$scratch/at_load.so"
-  grep -q test.controller.hostile "$scratch/stdout" || fail "$what: the plugin should be listed"
-  [[ $what == none ]] || note probe "while loaded: fork and $([[ $what == fork ]] && echo return || echo stay)" "nothing"
+at_load() { DMRP_TEST_AT_LOAD=$1 timeout 120 "$host" plugins "$scratch/at_load.so"; }
+expect_status 0 at_load none
+grep -q test.controller.hostile "$scratch/stdout" || fail "the plugin should be listed"
+for what in fork stay; do
+  attack="while loaded: fork and $([[ $what == fork ]] && echo return || echo stay)"
+  if $limited; then
+    expect_status 2 at_load $what
+    grep -q "makes a system call while it is loaded, in dlopen, that the box refuses" "$scratch/stderr" ||
+      fail "$(cat "$scratch/stderr")"
+    note probe "$attack" "refused before the run" "the library"
+  else
+    expect_status 0 at_load $what
+  fi
 done
-expect_status 2 env DMRP_TEST_AT_LOAD=close timeout 120 "$host" plugins "$scratch/at_load.so"
-grep -q "closes its channel to the host while it is loaded" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
-note probe "while loaded: closes its channel, blocks all signals" "refused before the run" "the library"
-status=0
-wait "$waiting" || status=$?
-((status == 2)) || fail "exit status $status, not 2: $(cat "$scratch/waits.stderr")"
-grep -q "waits.so: hangs while it is loaded, in dlopen" "$scratch/waits.stderr" || fail "$(cat "$scratch/waits.stderr")"
+for what in wait close; do
+  status=0
+  wait "${waiting[$what]}" || status=$?
+  ((status == 2)) || fail "exit status $status, not 2: $(cat "$scratch/$what.stderr")"
+  grep -q "$what.so: hangs while it is loaded, in dlopen" "$scratch/$what.stderr" || fail "$(cat "$scratch/$what.stderr")"
+  expect_none_left "plugins $scratch/$what.so"
+done
 note probe "while loaded: waits" "refused before the run" "the library"
-expect_none_left "probe $scratch/"
+note probe "while loaded: closes its pipes, blocks all signals" "refused before the run" "the library"
 
 # attacks that do nothing, or leave no trace in the results
 begin harmless
-harmless=(threads reserves umask "all descriptors taken" "kills siblings")
+harmless=(threads reserves umask "all descriptors taken" "kills siblings" "quiet heap corruption")
 for attack in none "${harmless[@]}"; do hostile harmless "$attack"; done
 status=0
 "$host" "$scratch/harmless.toml" --no-box --quiet --jobs 2 --out "$scratch/harmless" || status=$?

@@ -41,6 +41,13 @@ grep -q "7 of 8 trials are finished: continue with --resume" "$scratch/stderr" |
 run --resume --out "$scratch/part"
 [[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
+cp -r "$scratch/a" "$scratch/relabelled"
+query "$scratch/relabelled" "UPDATE trial SET local_controller = 'better' WHERE id = 0"
+expect_refusal "$scratch/b: trial 4 does not fit trial 0, one of them was changed after its run: its controller is" \
+  "$scratch/none" "$scratch/relabelled" "$scratch/b" "$scratch/c"
+query "$scratch/relabelled" "UPDATE trial SET local_controller = (SELECT local_controller FROM trial WHERE id = 6), seed = 1
+  WHERE id = 0"
+expect_refusal "trial [0-9]+ does not fit trial" "$scratch/none" "$scratch/relabelled" "$scratch/b" "$scratch/c"
 expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"
 expect_refusal "$scratch/joined: exists already and is not empty" "$scratch/joined" "$scratch/a" "$scratch/b" "$scratch/c"
 expect_refusal "a shard is missing: 2/3" "$scratch/none" "$scratch/a" "$scratch/b"

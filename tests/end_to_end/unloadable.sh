@@ -3,11 +3,11 @@
 # A library that cannot be loaded is refused before the run, or left out if the experiment says so.
 # Called as: unloadable.sh DMRP_HOST LIBRARY_OF_ATTACKS
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
-# broken/libhostile.so would hang whatever loads it; text.so is none
+# broken/libhostile.so ends whatever loads it; text.so is none
 mkdir "$scratch/broken"
 cp "$2" "$scratch/broken/libhostile.so"
 echo "no library" >"$scratch/broken/text.so"
-export DMRP_TEST_AT_LOAD=close
+export DMRP_TEST_AT_LOAD=crash
 
 experiment=$scratch/experiment.toml
 {
@@ -16,14 +16,14 @@ experiment=$scratch/experiment.toml
 } >"$experiment"
 
 expect_status 2 "$host" "$experiment" --quiet --out "$scratch/refused"
-grep -q "broken/libhostile.so: closes its channel to the host while it is loaded" "$scratch/stderr" ||
+grep -q "broken/libhostile.so: crashes while it is loaded" "$scratch/stderr" ||
   fail "the library should be named: $(cat "$scratch/stderr")"
 [[ ! -e $scratch/refused ]] || fail "a refused run should leave nothing"
 
 # expect_left_out FILE: two libraries, and the controller that one of them may have
 expect_left_out() {
   local text
-  for text in "broken/libhostile.so: closes its channel" "broken/text.so: " "no local_controller 'test.controller.hostile'"; do
+  for text in "broken/libhostile.so: crashes" "broken/text.so: " "no local_controller 'test.controller.hostile'"; do
     grep -q "$text" "$1" || fail "'$text' should be in: $(cat "$1")"
   done
 }

@@ -24,6 +24,28 @@ expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' changed
 [[ $(wc -l <stdout) == 2 ]] || fail "one difference, one line: $(cat stdout)"
 cp run/traces/trial_000002.mcap changed/traces/trial_000007.mcap
 expect_difference "^trial 7: the trace's digest is [0-9a-f]{64}, was [0-9a-f]{64}\$" changed
+
+# the rules are those of the experiment, not of the file that is judged
+cp -r run forged
+query forged "UPDATE value SET value = 123.25 WHERE trial_id = 5 AND metric = 'path_length' AND subject_kind = 'system';
+  UPDATE metric SET wall_clock = 1"
+expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' forged
+query forged "DELETE FROM trial WHERE id = 3; DELETE FROM value WHERE trial_id = 3; DELETE FROM event WHERE trial_id = 3"
+expect_difference '^1 of 8 trials are missing$' forged
+query forged "UPDATE trial SET local_controller = 'better' WHERE id = 2"
+expect_difference "^trial 2: its controller is 'better', in this experiment '" forged
+query forged "UPDATE trial SET seed = 1 WHERE id = 4"
+expect_difference "^trial 4: its seed is '1', in this experiment '" forged
+query forged "CREATE TRIGGER falsify AFTER INSERT ON value BEGIN UPDATE value SET value = 0 WHERE rowid = NEW.rowid; END"
+expect_status 2 "$host" verify forged
+grep -q "forged/results.sqlite: has a trigger 'falsify' that no dmrp-host makes" stderr || fail "$(cat stderr)"
+expect_status 2 "$host" "$here/crossing.toml" --trials 3 --quiet --resume --out forged
+grep -q "has a trigger 'falsify'" stderr || fail "$(cat stderr)"
+cp -r run imposter
+query imposter "ALTER TABLE value RENAME TO kept; CREATE VIEW value AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL
+  SELECT i FROM n) SELECT 0 AS trial_id, 'x' AS metric, 'system' AS subject_kind, i AS subject, 0 AS coordinate, 0 AS value FROM n"
+expect_status 2 timeout 60 "$host" report imposter
+grep -q "has a view 'value' that no dmrp-host makes" stderr || fail "$(cat stderr)"
 sed -i 's/^seed .*/seed = 8/' changed/effective.toml
 expect_difference '^experiment.seed is 8, was 7$' changed
 rm changed/effective.toml

@@ -8,7 +8,7 @@
 
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/rehearsal/stage_extensions.hpp"
-#include "host/trial/measure.hpp"
+#include "host/guests/inside/measure.hpp"
 
 namespace dmrp::host {
 

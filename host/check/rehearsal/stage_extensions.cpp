@@ -23,11 +23,10 @@ bool requires_extension(const PluginInfo& info, std::string_view id) {
 StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Stage& stage, std::uint32_t robots)
     : info_(info),
       stage_(stage),
-      trace_(stage.variant.view.world(), [](std::int64_t, std::span<const std::uint8_t>) {}),
-      annotations_(&trace_, info.kind, 0, robots),
+      annotations_(annotated_, 0),
       lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
       sensors_(sensors_of(stage, lidar_, robots)),
-      sensor_extensions_(sensors_),
+      sensor_readings_(readings_of(sensors_)),
       grown_(stage.settings.grown_extension_bytes) {
   instance.offer([this](std::string_view id) { return find(id); });
 }
@@ -43,7 +42,7 @@ const void* StageExtensions::own(std::string_view id) {
     return info_.kind == DMRP_KIND_PEDESTRIAN_MODEL || info_.kind == DMRP_KIND_METRIC
                ? stage_.variant.walking_grids->extension()
                : nullptr;
-  return info_.kind == DMRP_KIND_LOCAL_CONTROLLER ? sensor_extensions_.extension(id) : nullptr;
+  return info_.kind == DMRP_KIND_LOCAL_CONTROLLER ? sensor_readings_.extension(id) : nullptr;
 }
 
 }  // namespace dmrp::host

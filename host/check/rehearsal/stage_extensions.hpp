@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "core/sensors/lidar.hpp"
-#include "core/trace/trace_encoder.hpp"
 #include "host/check/rehearsal/grown_extensions.hpp"
 #include "host/check/rehearsal/stage.hpp"
+#include "host/guests/inside/annotations.hpp"
 #include "host/plugins/instance.hpp"
-#include "host/trial/annotations.hpp"
 #include "host/trial/robot_sensors.hpp"
-#include "host/trial/sensor_extensions.hpp"
 
 namespace dmrp::host {
 
@@ -33,11 +31,11 @@ class StageExtensions {
 
   const PluginInfo& info_;
   Stage& stage_;
-  core::TraceEncoder trace_;  // of annotations; keeps nothing
+  AnnotationBuffer annotated_{true};  // nobody reads it
   Annotations annotations_;
   core::Lidar lidar_;
   std::vector<std::shared_ptr<RobotSensors>> sensors_;
-  SensorExtensions sensor_extensions_;
+  SensorReadings sensor_readings_;
   GrownExtensions grown_;
 };
 

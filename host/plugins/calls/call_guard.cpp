@@ -41,6 +41,10 @@ std::string disallowed_detail(const char* name, std::int32_t status) {
 
 }  // namespace
 
+std::int64_t CallGuard::longest_ns(std::int64_t budget_ns) {
+  return budget_ns * grace_factor + grace_ns;
+}
+
 bool CallGuard::should_stop(const dmrp_host* caller) noexcept {
   if (caller_ != caller) return true;
   const std::int64_t asked = ++asks_ - asks_before_;
@@ -109,7 +113,7 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
   copy_text(note_.function, site.function);
   note_.step.store(site.step, std::memory_order_relaxed);
   note_.robot.store(site.robot, std::memory_order_relaxed);
-  note_.limit_ns.store(budget_ns * grace_factor + grace_ns, std::memory_order_relaxed);
+  note_.limit_ns.store(longest_ns(budget_ns), std::memory_order_relaxed);
   control_bits_ = fp_control();
   copies_before_ = own_process::copies_made();
   asks_before_ = asks_;

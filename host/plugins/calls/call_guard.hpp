@@ -49,6 +49,9 @@ class CallGuard {
     return leave(site, answers, status, threw);
   }
 
+  // How long a call may take with this budget; a longer one counts as hanging.
+  static std::int64_t longest_ns(std::int64_t budget_ns);
+
   // The functions of host.h, from any thread. Outside a call of the caller should_stop() returns true and set_error()
   // does nothing.
   bool should_stop(const dmrp_host* caller) noexcept;

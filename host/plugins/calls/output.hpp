@@ -26,12 +26,10 @@ inline void check_margin(const std::uint8_t* margin, const CallSite& site, const
 template <class Struct>
 class Output {
  public:
-  Output() {
-    margin_.fill(detail::margin_byte);
-    clear();
-  }
+  Output() { clear(); }
 
   void clear() {
+    margin_.fill(detail::margin_byte);
     value = {};
     value.struct_size = sizeof(Struct);
   }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/snap.hpp>
+#include <nlohmann/json.hpp>
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/calls/host_callback.hpp"
@@ -129,6 +131,16 @@ void describe_robots(const VariantWorld& variant, const core::World& world, cons
 }
 
 }  // namespace
+
+void to_json(nlohmann::json& json, const PlanStatistic& statistic) {
+  json = nlohmann::json::array({statistic.name, statistic.value});
+  if (!std::isfinite(statistic.value)) json[1] = fmt::format("{}", statistic.value);
+}
+void from_json(const nlohmann::json& json, PlanStatistic& statistic) {
+  json.at(0).get_to(statistic.name);
+  statistic.value =
+      json.at(1).is_string() ? std::strtod(json.at(1).get<std::string>().c_str(), nullptr) : json.at(1).get<double>();
+}
 
 const dmrp_plan& Plan::view() {
   c_paths_.clear();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,10 @@ struct PlanStatistic {
   std::string name;
   double value;
 };
+
+// As JSON, which has no infinity: as text.
+void to_json(nlohmann::json& json, const PlanStatistic& statistic);
+void from_json(const nlohmann::json& json, PlanStatistic& statistic);
 
 // What one call of plan() gives.
 struct PlannerAnswer {

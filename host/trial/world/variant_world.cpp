@@ -94,7 +94,8 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                            std::uint64_t seed)
-    : scenario(scenario_of_trial(variant, shared, seed)),
+    : shared_(&shared),
+      scenario(scenario_of_trial(variant, shared, seed)),
       simulation(shared.simulation),
       geometry(shared.geometry),
       types(shared.types),

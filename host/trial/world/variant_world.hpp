@@ -23,6 +23,13 @@ struct VariantWorld {
   VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                std::uint64_t seed);
 
+  // The world that all trials of the variant have in common, without robots of one trial: this one, where none are drawn.
+  const VariantWorld& shared() const { return shared_ ? *shared_ : *this; }
+
+ private:
+  const VariantWorld* shared_ = nullptr;
+
+ public:
   core::Scenario scenario;
   core::SimulationSettings simulation;  // with the time limit of this scenario
   std::shared_ptr<const core::StaticGeometry> geometry;

@@ -38,6 +38,19 @@ const core::PlanningGrid* WalkingGrids::find(double resolution_m, double radius_
   return found ? &found->grid : nullptr;
 }
 
+std::vector<WalkingGrids::Known> WalkingGrids::known() const {
+  std::vector<Known> all;
+  for (const auto& [request, grid] : grids_)
+    if (grid) all.push_back({request.first, request.second, grid->view});
+  return all;
+}
+
+void WalkingGrids::add(const Known& known) {
+  auto& grid = grids_[{known.resolution_m, known.radius_m}];
+  grid = std::make_unique<Grid>();
+  grid->view = known.view;
+}
+
 WalkingGrids::Grid* WalkingGrids::grid(double resolution_m, double radius_m) {
   if (!(resolution_m > 0.0 && std::isfinite(resolution_m) && radius_m >= 0.0 && std::isfinite(radius_m)))
     return nullptr;

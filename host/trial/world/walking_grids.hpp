@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/static_geometry.hpp"
@@ -29,6 +30,19 @@ class WalkingGrids {
   const core::PlanningGrid* find(double resolution_m, double radius_m);
 
   const dmrp_walking_grid* extension() const { return &extension_; }
+
+  // A grid, and what it is asked for by.
+  struct Known {
+    double resolution_m;
+    double radius_m;
+    dmrp_grid view;
+  };
+
+  // All grids so far.
+  std::vector<Known> known() const;
+
+  // Takes a grid over that somebody else has computed, and whose arrays outlive this object.
+  void add(const Known& known);
 
  private:
   struct Grid {

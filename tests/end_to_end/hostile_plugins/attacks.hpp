@@ -106,9 +106,13 @@ inline bool has_rings_or_segments() {
          syscall(SYS_add_key, "user", "dmrp", "x", 1, -4) >= 0 || syscall(SYS_userfaultfd, UFFD_USER_MODE_ONLY) >= 0;
 }
 
-// The worker's scratch folder is that of temporary files; the run directory is two levels above.
+// The guests' folder is that of temporary files; the worker's is above it, and the run directory two levels above that.
+inline std::filesystem::path worker_folder() {
+  return std::filesystem::temp_directory_path().parent_path();
+}
+
 inline void delete_files(const std::string& of) {
-  const std::filesystem::path scratch = std::filesystem::temp_directory_path();
+  const std::filesystem::path scratch = worker_folder();
   std::error_code ignored;
   std::filesystem::remove_all(of == "run" ? scratch.parent_path().parent_path() / "traces" : scratch, ignored);
 }
@@ -118,7 +122,7 @@ inline void write_elsewhere() {
 }
 
 inline void replace_trace() {
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(worker_folder())) {
     const std::filesystem::path trace = entry.path();
     std::filesystem::remove(trace);
     mkfifo(trace.c_str(), 0600);
@@ -128,7 +132,7 @@ inline void replace_trace() {
 // A pipe or a link under each name that the host will use in the scratch folders and for plans.
 inline void plant(const std::string& what) {
   namespace fs = std::filesystem;
-  const fs::path scratch = fs::temp_directory_path().parent_path();
+  const fs::path scratch = worker_folder().parent_path();
   std::vector<fs::path> places;
   for (const auto& entry : fs::directory_iterator(scratch)) {
     for (const char* const name : {"plan.csv", "samples"}) places.push_back(entry.path() / name);

@@ -65,6 +65,7 @@ __attribute__((constructor)) static void at_load() {
     for (;;) pause();
   if (what == "wait")
     for (;;) pause();
+  if (what == "crash") std::abort();
   if (what == "write") dmrp::test::write_elsewhere();
   if (what == "close") dmrp::test::close_those("pipe:");
   if (what == "close") {

@@ -146,7 +146,7 @@ inline host::Probe fake_probe(const std::filesystem::path& file) {
   if (name == "libbad.so") throw std::runtime_error("not a dmrp v1 plugin");
   if (name == "libfake.so") return {fake_plugins()};
   if (name == "libtwin.so") return {{plugin("test.model", DMRP_KIND_PEDESTRIAN_MODEL, "Model")}};
-  if (name == "libsick.so") return {fake_plugins(), {}, "its init() failed: no licence"};
+  if (name == "libsick.so") return {fake_plugins(), {}, {}, "its init() failed: no licence"};
   if (name == "librival.so") {
     host::PluginInfo metric = plugin("rival.length", DMRP_KIND_METRIC, "Length");
     metric.values = {{"length", "m", "", DMRP_DIRECTION_LOWER, 1, false, false}};

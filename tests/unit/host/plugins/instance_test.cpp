@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "tests/support/instance_pool.hpp"
 #include "tests/unit/host/plugins/odd_library.hpp"
 
 using namespace dmrp::host;

@@ -72,9 +72,9 @@ struct Stage {
     CallNote note{};
     CallGuard guard{note};
     const VariantWorld variant(experiment, experiment.scenarios[0]);
-    InstancePool pool(experiment.libraries, guard, [](auto, const auto&, const auto&) {});
+    Guests guests = Guests::local(experiment.libraries, note, guard, [](auto, const auto&, const auto&) {});
     trace = std::make_unique<test::TraceInMemory>(variant.view.world());
-    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, pool, **trace);
+    const TrialEnding ending = run_trial({experiment, {}, variant, seed}, guests, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending.succeeded;
   }

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/trial/sensor_extensions.hpp"
+#include "host/trial/robot_sensors.hpp"
 
 using namespace dmrp;
 using namespace dmrp::host;
@@ -54,7 +54,7 @@ struct Hall {
 struct Sensors {
   explicit Sensors(Hall& hall, std::uint64_t trial_seed = seed, std::uint32_t robot = 0)
       : readings(std::make_shared<RobotSensors>(*hall.world, robot, *hall.lidar, trial_seed)),
-        extensions(by_robot(readings, robot)) {}
+        extensions(readings_of(by_robot(readings, robot))) {}
 
   static std::vector<std::shared_ptr<RobotSensors>> by_robot(std::shared_ptr<RobotSensors> readings,
                                                              std::uint32_t robot) {
@@ -70,7 +70,7 @@ struct Sensors {
   }
 
   std::shared_ptr<RobotSensors> readings;
-  SensorExtensions extensions;
+  SensorReadings extensions;
 };
 
 std::vector<float> ranges_of(Sensors& sensors) {

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "core/trace/trace_reader.hpp"
+#include "host/guests/inside/measure.hpp"
+#include "tests/support/instance_pool.hpp"
 #include "tests/unit/host/trial/stage.hpp"
 
 using namespace dmrp::host;
@@ -149,11 +151,15 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   REQUIRE(stage.reader->plans().size() == 1);
   CHECK(stage.reader->plans()[0].plan.status == (does == "timeout" ? DMRP_TIMEOUT : DMRP_NO_SOLUTION));
   const MetricResult result = stage.measured();
-  CHECK(result.index == 3);
+  CHECK(result.index == 0);
   CHECK(system_of(result, "samples") == 0.0);
   // a metric of calls sees the one without a plan
-  stage.experiment.metrics[0].info.channels = DMRP_CHANNEL_CALLS;
-  CHECK(system_of(stage.measured(), "samples") == 1.0);
+  PluginUse use = stage.experiment.metrics[0];
+  use.info.channels = DMRP_CHANNEL_CALLS;
+  InstancePool pool(stage.experiment.libraries, stage.guard, [](auto, const auto&, const auto&) {});
+  const MetricResult of_calls =
+      measure(*stage.reader, stage.variant->walking_grids, pool.get(use, DMRP_NO_ROBOT), use.info, 0, 1, 1'000'000'000);
+  CHECK(system_of(of_calls, "samples") == 1.0);
   stage.reader->rewind();
   const dmrp_sample* sample = stage.reader->next_sample();
   REQUIRE(sample->call_count == 4);  // and the class of each robot
@@ -283,8 +289,7 @@ TEST_CASE("a metric that is silent about a declared value is at fault") {
 TEST_CASE("a trace that was cut short is not measured") {
   CheckedStage stage;
   stage.open();
-  const test::TraceInMemory cut(stage.variant->view.world());
-  stage.reader = std::make_unique<core::TraceReader>(cut.bytes());
+  stage.trace = std::make_unique<test::TraceInMemory>(stage.variant->view.world());
   CHECK_THROWS_AS(stage.measured(), std::invalid_argument);
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/trace/trace_reader.hpp"
-#include "host/trial/measure.hpp"
+#include "host/trial/ask_metric.hpp"
 #include "host/trial/run_trial.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
@@ -70,10 +70,10 @@ struct Stage {
     use(experiment.metrics, cast.metric);
     experiment.scenarios = {{std::move(scenario), "hall", ""}};
     experiment.robot.lidar.beams = 36;
-    pool = std::make_unique<host::InstancePool>(experiment.libraries, guard,
-                                                [this](std::int32_t level, const auto& plugin, const auto& text) {
-                                                  log.push_back({level, plugin, text});
-                                                });
+    guests = std::make_unique<host::Guests>(host::Guests::local(
+        experiment.libraries, note, guard, [this](std::int32_t level, const auto& plugin, const auto& text) {
+          log.push_back({level, plugin, text});
+        }));
   }
 
   // Builds the world, once.
@@ -84,14 +84,15 @@ struct Stage {
   host::TrialEnding run() {
     open();
     trace = std::make_unique<TraceInMemory>(variant->view.world());
-    const host::TrialEnding ending = run_trial({experiment, combination, *variant, 1, first_plan}, *pool, **trace);
+    guests->begin_trial({0, variant->simulation.step_ns});
+    const host::TrialEnding ending = run_trial({experiment, combination, *variant, 1, first_plan}, *guests, **trace);
     reader = std::make_unique<core::TraceReader>(trace->bytes());
     return ending;
   }
 
   host::MetricResult measured() {
-    return measure(*reader, variant->walking_grids, pool->get(experiment.metrics[0], DMRP_NO_ROBOT),
-                   experiment.metrics[0].info, 3, 1, 1'000'000'000);
+    const auto robots = static_cast<std::uint32_t>(variant->scenario.robots.size());
+    return ask_metric(*guests, experiment.metrics[0], 0, {trace->bytes(), variant.get(), robots, 1}, 1'000'000'000);
   }
 
   // The fault that ends the trial, or the measuring of it.
@@ -112,7 +113,7 @@ struct Stage {
   host::Combination combination;
   host::FirstPlan first_plan;
   std::unique_ptr<host::VariantWorld> variant;
-  std::unique_ptr<host::InstancePool> pool;
+  std::unique_ptr<host::Guests> guests;
   std::unique_ptr<TraceInMemory> trace;
   std::unique_ptr<core::TraceReader> reader;
 };

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# No library meets another's code or data: neither by accident, as two copies of one header or of one shared library, nor
+# on purpose. Each controller has the values that it has alone, whatever else is listed and in whatever order.
+# Called as: isolation.sh DMRP_HOST LIBRARY_ONE LIBRARY_TWO SABOTEUR
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+one=$2 two=$3 saboteur=$4
+
+# experiment NAME LIBRARIES CONTROLLER...
+experiment() {
+  sed "s|^\(plugins = .*\)\]|\1, $2]|; /^\[\[local_controller\]\]/,/^\$/d; s/^trials .*/trials = 2/" "$here/crossing.toml" \
+    >"$scratch/$1.toml"
+  local controller
+  for controller in "${@:3}"; do
+    printf '\n[[local_controller]]\nuse = "%s"\nlabel = "%s"\n' "$controller" "$controller" >>"$scratch/$1.toml"
+  done
+  expect_status 0 "$host" "$scratch/$1.toml" --quiet --jobs 1 --out "$scratch/$1"
+}
+values() {
+  query "$scratch/$1" "SELECT trial.repetition, global_planner, outcome, metric, subject_kind, subject,
+    printf('%!.17g', value.value) FROM value JOIN trial ON trial.id = trial_id
+    WHERE local_controller = '$2' AND metric NOT IN (SELECT name FROM metric WHERE wall_clock) ORDER BY 1, 2, 4, 5, 6"
+}
+expect_same() {
+  [[ -n $(values "$1" "$3") && $(values "$1" "$3") == "$(values "$2" "$3")" ]] || fail "$3: its values in $2 differ"
+}
+
+experiment one "\"$one\"" test.one
+experiment two "\"$two\"" test.two
+[[ $(values one test.one) != "$(values two test.two)" ]] || fail "the two should drive differently"
+experiment both "\"$one\", \"$two\"" test.one test.two
+experiment swapped "\"$two\", \"$one\"" test.two test.one
+for run in both swapped; do
+  expect_same one $run test.one
+  expect_same two $run test.two
+done
+
+# a listed library that no trial uses is loaded by no trial
+experiment alone "\"$one\"" dmrp.controller.pure_pursuit
+experiment attacked "\"$saboteur\"" dmrp.controller.pure_pursuit
+expect_same alone attacked dmrp.controller.pure_pursuit
+experiment beside "\"$saboteur\"" test.saboteur dmrp.controller.pure_pursuit
+expect_same alone beside dmrp.controller.pure_pursuit

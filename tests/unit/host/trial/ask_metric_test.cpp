@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The judge believes of a metric's guest only what the metric can have given.
+#include "host/trial/ask_metric.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/results/result_bytes.hpp"
+#include "host/results/result_json.hpp"
+
+using namespace dmrp::host;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uint32_t robots = 2;
+
+PluginInfo length_metric() {
+  PluginInfo info;
+  info.id = "test.length";
+  MetricValueSpec spec;
+  spec.name = "length";
+  spec.subjects = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT;
+  info.values = {spec};
+  return info;
+}
+
+const MetricValue good = {"length", DMRP_SUBJECT_SYSTEM, {}, {}, 1.0};
+
+}  // namespace
+
+TEST_CASE("a metric gives only what it declares, and that once") {
+  CHECK_FALSE(breach_of({0, {good, {"length", DMRP_SUBJECT_ROBOT, 1, {}, 1.0}}, {}}, length_metric(), robots));
+  MetricValue bad = good;
+  SECTION("another metric's value") {
+    bad.metric = "speed";
+  }
+  SECTION("a robot that is not there") {
+    bad = {"length", DMRP_SUBJECT_ROBOT, 2, {}, 1.0};
+  }
+  SECTION("a subject that it does not declare") {
+    bad = {"length", DMRP_SUBJECT_PEDESTRIAN, 0, {}, 1.0};
+  }
+  SECTION("a robot without a number") {
+    bad = {"length", DMRP_SUBJECT_ROBOT, {}, {}, 1.0};
+  }
+  SECTION("an unknown subject") {
+    bad.subject_kind = 40;
+  }
+  SECTION("a coordinate without a curve") {
+    bad.coordinate = 0.5;
+  }
+  SECTION("twice") {}
+  CHECK(breach_of({0, {good, bad}, {}}, length_metric(), robots));
+}
+
+TEST_CASE("an event of a metric is about robots that there are, and a time") {
+  const auto breach = [](const MetricEvent& event) { return breach_of({0, {good}, {event}}, length_metric(), robots); };
+  CHECK_FALSE(breach({"length", 0, 1, {0, 1}, {}, "near", 0, {}}));
+  CHECK(breach({"length", 0, 1, {2}, {}, "near", 0, {}}));
+  CHECK(breach({"length", 2, 1, {0}, {}, "near", 0, {}}));
+}
+
+TEST_CASE("a result has an end") {
+  const MetricEvent long_event = {"length", 0, 1, {0}, {}, std::string(1 << 20, 'x'), 0, {}};
+  MetricResult result = {0, {good}, {}};
+  result.events.assign(most_result_bytes / (1 << 20) + 1, long_event);
+  CHECK(breach_of(result, length_metric(), robots));
+}
+
+TEST_CASE("numbers that an integer cannot hold are not taken for others") {
+  const json metric = MetricResult{0, {good}, {{"length", 0, 1, {0}, {7}, "", 0, {}}}};
+  for (const char* place : {"/index", "/values/0/1", "/values/0/2", "/events/0/1", "/events/0/2", "/events/0/3/0",
+                            "/events/0/4/0", "/events/0/6"}) {
+    INFO(place);
+    json wrong = metric;
+    wrong[json::json_pointer(place)] = 1e300;
+    CHECK_THROWS_AS(wrong.get<MetricResult>(), UnbelievableMessage);
+  }
+  constexpr std::uint64_t beyond = std::uint64_t{1} << 32;  // 0 in 32 bits
+  for (const json& number : {json(beyond), json(0.5), json(-1), json("0")}) {
+    INFO(number.dump());
+    json wrong = metric;
+    wrong["index"] = number;
+    CHECK_THROWS_AS(wrong.get<MetricResult>(), UnbelievableMessage);
+  }
+}
