@@ -119,6 +119,9 @@ core::TaskWishes wishes_of(const DrawOptions& options) {
   wishes.drawn = 1;
   wishes.conflicts_min = options.conflicts_min.value_or(0);
   wishes.conflicts_max = options.conflicts_max.value_or(core::any_number);
+  if (wishes.conflicts_min > wishes.conflicts_max)
+    throw InputError(
+        fmt::format("--conflicts-min {}: is more than --conflicts-max {}", wishes.conflicts_min, wishes.conflicts_max));
   if (options.in_corridors) wishes.crossing = core::Crossing::corridor;
   return wishes;
 }

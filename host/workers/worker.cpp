@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,6 +85,23 @@ GuestLimits guest_limits(const Experiment& experiment, const WorkerTask& task) {
   return limits;
 }
 
+// A file as it was when the worker compared its content.
+struct FileStamp {
+  dev_t device;
+  ino_t file;
+  off_t bytes;
+  std::int64_t changed_ns;
+
+  bool operator==(const FileStamp&) const = default;
+};
+
+FileStamp stamp_of(const std::string& file) {
+  struct stat found {};
+  if (stat(file.c_str(), &found) != 0) throw std::system_error(errno, std::generic_category(), file);
+  return {found.st_dev, found.st_ino, found.st_size,
+          std::int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec};
+}
+
 class Worker {
  public:
   Worker(const Experiment& experiment, const WorkerTask& task, const Nursery& nursery, LineChannel& channel,
@@ -100,6 +118,7 @@ class Worker {
                 [this](const LibraryUse& library, std::uint32_t kind) { return start_guest(library, kind); }) {}
 
   void serve() {
+    for (const LibraryUse& library : experiment_.libraries) check_unchanged(library);
     sender_.send({{"type", "ready"}, {"digest", loaded_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
@@ -121,8 +140,18 @@ class Worker {
     int killed = 0;
   };
 
+  // Rows of two versions of a library would stand in one table.
+  void check_unchanged(const LibraryUse& library) {
+    std::vector<std::string> files = library.objects;
+    files.push_back(library.file.string());
+    for (const std::string& file : files)
+      if (stamps_.try_emplace(file, stamp_of(file)).first->second != stamp_of(file))
+        throw std::runtime_error(file + ": changed while it was being run");
+  }
+
   // A planner may have threads, and is asked seldom.
   std::unique_ptr<Guest> start_guest(const LibraryUse& library, std::uint32_t kind) {
+    check_unchanged(library);
     const auto started = [&](pid_t process) {
       if (kind != DMRP_KIND_GLOBAL_PLANNER) processor_.add(process);
     };
@@ -337,6 +366,7 @@ class Worker {
   const GuestLimits limits_;
   int spool_ = -1;                                                   // of the trial that is measured
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // guests keep copies of them
+  std::map<std::string, FileStamp> stamps_;                          // of libraries and what they need
   OneProcessor processor_;
   Watchdog watchdog_;
   std::int64_t trial_started_ns_ = 0;

@@ -90,6 +90,8 @@ grep -Eq '^8 robots: [0-9]+ pairs of individual paths in conflict, [45] in corri
 expect_status 2 "$host" draw mall --agents 2 --conflicts-min 2 --svg "$scratch/none.svg"
 [[ $(cat "$scratch/stderr") == "--conflicts-min, --conflicts-max: none of 1000 draws of tasks for 2 robots in 'mall' has as many" ]] ||
   fail "$(cat "$scratch/stderr")"
+expect_status 2 "$host" draw mall --agents 2 --conflicts-min 5 --conflicts-max 2 --svg "$scratch/none.svg"
+[[ $(cat "$scratch/stderr") == *"--conflicts-min 5: is more than --conflicts-max 2" ]] || fail "$(cat "$scratch/stderr")"
 expect_status 2 "$host" draw mall --conflicts-min 2 --svg "$scratch/none.svg"
 
 # a test with levels, at its first one
