@@ -94,7 +94,6 @@ const char* ProcessEnding::fault_kind() const {
   if (signal == SIGSYS) return fault_kind::abi_breach;
   if (signal == SIGXCPU) return fault_kind::hang;
   if (signal != 0) return fault_kind::crash;
-  if (exit_status == channel_closed_exit) return fault_kind::abi_breach;
   return exit_status == out_of_memory_exit ? fault_kind::out_of_memory : fault_kind::exit;
 }
 
@@ -138,7 +137,7 @@ ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function
   return ChildProcess(notes.output, std::move(group), [&] {
     set_resource_limits(data_mb);
     if (limits.file_mb > 0) limit_files(limits.file_mb);
-    own_process::watch({});
+    own_process::watch();
     box::enter(limits.processes, notes.refused);
     function();
   });

@@ -25,9 +25,6 @@ namespace dmrp::host {
 // Exit status of a child that ran out of memory outside a plugin call.
 inline constexpr int out_of_memory_exit = 86;
 
-// Exit status of a worker whose channel was closed under it.
-inline constexpr int channel_closed_exit = 87;
-
 // How a child ended.
 struct ProcessEnding {
   int signal = 0;                    // that killed it; 0: it exited

@@ -24,9 +24,6 @@ class LineChannel {
   // Whether fill() would not block.
   bool has_input() const;
 
-  // Whether a message has begun that is longer than any is meant to be.
-  bool is_flooded() const { return buffer_.size() > most_bytes; }
-
   // Closes the write end: receive() of the other side returns nothing.
   void close_write_end() { write_end_.close(); }
 
@@ -41,8 +38,6 @@ class LineChannel {
   std::optional<nlohmann::json> take();
 
  private:
-  static constexpr std::size_t most_bytes = std::size_t{1} << 22;  // more than any piece of a result
-
   Descriptor read_end_;
   Descriptor write_end_;
   std::string buffer_;

@@ -60,7 +60,7 @@ class Sender {
   explicit Sender(LineChannel& channel) : channel_(channel) {}
 
   void send(const nlohmann::json& message) const {
-    if (!channel_.send(message)) _exit(channel_closed_exit);
+    if (!channel_.send(message)) _exit(1);
   }
 
  private:

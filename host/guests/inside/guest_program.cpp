@@ -166,7 +166,7 @@ int run_guest(const std::vector<std::string>& arguments, const std::vector<int>&
   if (!setup.scratch.empty()) setenv("TMPDIR", setup.scratch.c_str(), 1);  // temporary files of plugins go there, too
   try {
     adopt_orphans();
-    own_process::watch({});
+    own_process::watch();
     set_resource_limits(setup.data_mb);
     watch_input(*memory);
     box::enter(setup.processes, &memory->note().refused, setup.scratch);

@@ -9,7 +9,6 @@
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/calls/fp_control.hpp"
-#include "host/process/child_process.hpp"
 #include "host/process/own_process.hpp"
 #include "host/program/monotonic_time.hpp"
 
@@ -134,8 +133,6 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
       add_timing(std::string(site.plugin), fmt::format("{}() was stopped by its time budget", site.function));
   }
   const bool is_long = duration_ns > shortest_start_ns;
-  // nothing can be reported any more: the supervisor reads the call note
-  if (is_long && !own_process::has_descriptors()) _exit(channel_closed_exit);
   note_.call_number.fetch_add(1);  // before the note of the next call
   if (fp_control() != control_bits_) {
     set_fp_control(control_bits_);
