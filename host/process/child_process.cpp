@@ -126,8 +126,7 @@ ChildProcess ChildProcess::execute(const Program& program) {
   std::vector<const char*> arguments = {executable.c_str()};
   for (const std::string& argument : program.arguments) arguments.push_back(argument.c_str());
   arguments.push_back(nullptr);
-  return ChildProcess(program.output, MemoryGroup::make(program.group_memory_mb),
-                      [&] { execute_program(arguments.data(), program); });
+  return ChildProcess(program.output, nullptr, [&] { execute_program(arguments.data(), program); });
 }
 
 ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function,

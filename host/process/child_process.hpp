@@ -68,7 +68,6 @@ class ChildProcess {
     std::vector<int> inherited;          // descriptors that the program keeps; it inherits no other
     int output = STDERR_FILENO;          // for its standard output and standard error
     bool ignores_terminal = false;       // Ctrl-C and the like, which reach all processes of a terminal
-    std::int64_t group_memory_mb = 0;    // of a memory group, where there can be one; 0: none
   };
 
   // Starts dmrp-host again. Throws MachineError.

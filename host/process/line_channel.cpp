@@ -44,10 +44,10 @@ std::optional<nlohmann::json> LineChannel::take() {
   return message;
 }
 
-std::optional<nlohmann::json> LineChannel::receive(const std::function<bool()>& wait) {
+std::optional<nlohmann::json> LineChannel::receive() {
   for (;;) {
     if (auto message = take()) return message->is_discarded() ? std::nullopt : message;
-    if ((wait && !wait()) || !fill()) return std::nullopt;
+    if (!fill()) return std::nullopt;
   }
 }
 

@@ -2,7 +2,6 @@
 // line_channel.hpp: JSON messages, one per line, over a pair of pipes between parent and child.
 #pragma once
 
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -27,9 +26,8 @@ class LineChannel {
   // Closes the write end: receive() of the other side returns nothing.
   void close_write_end() { write_end_.close(); }
 
-  // The next message. Nothing when the other side has closed, when it sent a line that is not JSON, or when `wait`,
-  // which is called before each read, returns false. Without `wait`, blocks.
-  std::optional<nlohmann::json> receive(const std::function<bool()>& wait = {});
+  // The next message; blocks. Nothing when the other side has closed, or when it sent a line that is not JSON.
+  std::optional<nlohmann::json> receive();
 
   // Reads once, as many bytes as there are. False when the other side has closed.
   bool fill();
