@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/check/memory_file.hpp"
 #include "host/errors/escaped_text.hpp"
 #include "host/process/box.hpp"
 #include "host/process/call_note.hpp"
 #include "host/process/child_process.hpp"
-#include "host/process/memory_file.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/sanitized.hpp"
 #include "host/process/watchdog.hpp"

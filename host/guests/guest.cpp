@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/guests/guest.hpp"
 
+#include <new>
+
 namespace dmrp::host {
 
 void Guest::set_memory(const Arena& arena, const Arena& output) {
@@ -61,16 +63,16 @@ std::string_view Guest::call(const GuestRequest& request, const AnswerQuestion& 
     forget_trial();
   }
   const char* const sent = text.empty() ? nullptr : arena_.copy_text(text);
-  request_mark_ = arena_.mark();
-  asking_call_ = 0;
   return send(request, answer, {sent, text.size()});
 }
 
 const void* Guest::answered(const GuestQuestion& question, const AnswerQuestion& answer) {
   if (!answer) return nullptr;
-  if (question.call_number != asking_call_) arena_.rewind(request_mark_);
-  asking_call_ = question.call_number;
-  return answer(question, arena_);
+  try {
+    return answer(question, arena_);
+  } catch (const std::bad_alloc&) {  // a guest can ask without end
+    return nullptr;
+  }
 }
 
 }  // namespace dmrp::host

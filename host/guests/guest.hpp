@@ -65,7 +65,7 @@ class Guest {
   void set_memory(const Arena& arena, const Arena& output);
   virtual std::string_view send(const GuestRequest& request, const AnswerQuestion& answer, std::string_view text) = 0;
 
-  // Takes back the answers to questions of calls before this one.
+  // The answer to a question, which stays until the request has been answered; nullptr if there is none, or no room for it.
   const void* answered(const GuestQuestion& question, const AnswerQuestion& answer);
 
  private:
@@ -73,10 +73,8 @@ class Guest {
 
   Arena arena_;
   Arena output_;
-  std::size_t shared_mark_ = 0;   // after the worlds that stay
-  std::size_t kept_mark_ = 0;     // after all that stays for the trial
-  std::size_t request_mark_ = 0;  // after the request
-  std::uint64_t asking_call_ = 0;
+  std::size_t shared_mark_ = 0;  // after the worlds that stay
+  std::size_t kept_mark_ = 0;    // after all that stays for the trial
   std::uint64_t trials_begun_ = 0;
   std::map<const dmrp_world*, std::unique_ptr<SentWorld>> shared_;
   std::unique_ptr<SentWorld> own_;       // of this trial

@@ -40,7 +40,7 @@ class GuestEnd : public PluginFault {
   std::string words_;
 };
 
-// For a person: "org.example.planner: plan(): crashed (signal 11, Segmentation fault)".
+// Explains a fault to a person: "org.example.planner: plan(): crashed (signal 11, Segmentation fault)".
 inline std::string words_of(const PluginFault& fault) {
   const auto* const end = dynamic_cast<const GuestEnd*>(&fault);
   return end ? call_text(end->plugin(), end->function(), end->words()) : fault.text();

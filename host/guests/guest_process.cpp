@@ -15,7 +15,7 @@
 #include "host/plugins/calls/call_guard.hpp"
 #include "host/process/box.hpp"
 #include "host/process/orphans.hpp"
-#include "host/results/result_json.hpp"
+#include "host/results/whole_number.hpp"
 
 namespace dmrp::host {
 
@@ -85,7 +85,7 @@ void GuestProcess::start(const LibraryUse& library, int spool) {
 
 GuestProcess::~GuestProcess() = default;
 
-// For one trial.
+// Allows what one trial may take.
 void GuestProcess::allow_processor_time() {
   process_->allow_cpu(processor_time_s(limits_.trial_wall_time_s, limits_.sharers));
 }
@@ -137,7 +137,7 @@ void GuestProcess::wait(const GuestRequest& request) {
     if (poll(&watched, 1, 0) > 0) has_died(request);
     look(request);
   }
-  if (turn != turn_) end(request, {fault_kind::abi_breach, "wrote into the memory that it shares with the host"});
+  if (turn != turn_) end(request, {fault_kind::abi_breach, wrote_into_shared_memory});
 }
 
 bool GuestProcess::is_time_to_look() const {
@@ -182,16 +182,25 @@ void GuestProcess::check_memory(const GuestRequest& request) {
 }
 
 void GuestProcess::fail(const GuestRequest& request) {
-  const nlohmann::json json = nlohmann::json::parse(answer_, nullptr, false);
-  if (!json.is_object()) end(request, {fault_kind::abi_breach, "wrote into the memory that it shares with the host"});
-  const auto plugin = json.value("plugin", std::string());
-  const auto function = json.value("function", std::string());
-  const bool fatal = json.value("fatal", false);
+  std::string kind, plugin, function, detail;
+  std::int64_t step = 0;
+  std::int32_t robot = -1;
+  bool fatal = false;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(answer_);
+    json.at("kind").get_to(kind);
+    json.at("plugin").get_to(plugin);
+    json.at("function").get_to(function);
+    json.at("detail").get_to(detail);
+    step = whole_number<std::int64_t>(json.at("step"));
+    robot = whole_number<std::int32_t>(json.at("robot"));
+    json.at("fatal").get_to(fatal);
+  } catch (const std::exception&) {  // no JSON, or not that of a fault
+    end(request, {fault_kind::abi_breach, wrote_into_shared_memory});
+  }
   if (fatal) stop();
-  throw PluginFault(known_kind(json.value("kind", std::string())),
-                    {plugin_of(request, plugin), function.c_str(),
-                     step_of(request, json.value("step", std::int64_t{0})), json.value("robot", -1)},
-                    json.value("detail", std::string()), fatal);
+  throw PluginFault(known_kind(kind), {plugin_of(request, plugin), function.c_str(), step_of(request, step), robot},
+                    detail, fatal);
 }
 
 // Its own plugin, if it says so: it has no other library's.

@@ -36,7 +36,7 @@ class Guests {
   // `libraries` outlives it.
   Guests(const std::vector<LibraryUse>& libraries, Start start);
 
-  // In this process: for debuggers and tests. The guard, whose note this is, outlives it.
+  // Makes guests that run in this process, for debuggers and tests. The guard, whose note this is, outlives them.
   static Guests local(const std::vector<LibraryUse>& libraries, CallNote& note, CallGuard& guard, const LogSink& log);
 
   // A trial begins: for all guests, and those that are started in it.

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t page_bytes = 4096;  // for what stands at the beginning of a part
 static_assert(sizeof(JudgePage) <= page_bytes && sizeof(GuestPage) <= page_bytes);
 
-// Of the address space: pages that nobody writes to take no memory.
+// It reserves addresses: pages that nobody writes to take no memory.
 constexpr std::size_t most_part_bytes = std::size_t{1} << 30;
 constexpr std::size_t most_guests = 16;  // that share a limit of the address space
 

@@ -15,7 +15,7 @@
 
 namespace dmrp::host {
 
-// At the beginning of the judge's part.
+// It stands at the beginning of the judge's part.
 struct JudgePage {
   std::atomic<std::uint32_t> turn;  // one more with every message of the judge
   GuestRequest request;
@@ -24,7 +24,7 @@ struct JudgePage {
   const void* answer;  // to the guest's question
 };
 
-// At the beginning of the guest's part. The guest can write anything there, at any time.
+// It stands at the beginning of the guest's part. The guest can write anything there, at any time.
 struct GuestPage {
   enum Kind : std::uint32_t { answer, fault, question, failure };
 

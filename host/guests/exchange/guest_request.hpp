@@ -15,6 +15,9 @@
 
 namespace dmrp::host {
 
+// The detail of a fault: an answer that no call of a plugin gives.
+inline constexpr const char* wrote_into_shared_memory = "wrote into the memory that it shares with the host";
+
 enum class GuestTask : std::uint32_t {
   load,         // the library: no input
   probe,        // load, init(), deinit() -> text: JSON of a Probe; nothing else can follow
@@ -125,7 +128,6 @@ struct GuestQuestion {
   enum Kind : std::uint32_t { subscribe_to_costmap, scan, costmap, distance_field, clusters } kind;
   std::uint32_t instance;
   std::uint32_t robot;
-  std::uint64_t call_number;  // of the call that asks: its answers are valid until it returns
 };
 
 }  // namespace dmrp::host

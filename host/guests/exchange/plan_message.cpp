@@ -53,10 +53,8 @@ PlannerAnswer planner_answer(std::string_view text, const PlanInput& input, std:
     }
     if (!answer.paths.empty() && answer.paths.size() != robot_count) throw UnbelievableMessage("without all paths");
     return answer;
-  } catch (const nlohmann::json::exception&) {
-    throw PluginFault(fault_kind::abi_breach, site, "wrote into the memory that it shares with the host", true);
-  } catch (const UnbelievableMessage&) {
-    throw PluginFault(fault_kind::abi_breach, site, "wrote into the memory that it shares with the host", true);
+  } catch (const std::exception&) {  // no JSON, or what no planner gives
+    throw PluginFault(fault_kind::abi_breach, site, wrote_into_shared_memory, true);
   }
 }
 

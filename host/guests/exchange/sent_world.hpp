@@ -25,7 +25,7 @@ class SentWorld {
  public:
   SentWorld(Arena& arena, const dmrp_world& world);
 
-  // Of the static geometry that `shared` has too: grids are not copied again.
+  // Copies no grid again that `shared` has, which is of the same static geometry.
   SentWorld(Arena& arena, const dmrp_world& world, const SentWorld& shared);
 
   const dmrp_world& world() const { return *world_; }

@@ -18,7 +18,7 @@ constexpr std::uint32_t most_poses = 1000;
 constexpr std::size_t most_note_bytes = 1000;
 constexpr std::size_t most_trace_bytes = std::size_t{256} << 20;
 
-// Of one request: no result depends on what is lost.
+// What one request annotates beyond this is lost: no result depends on it.
 constexpr std::size_t most_buffer_bytes = std::size_t{64} << 20;
 
 constexpr std::uint32_t note_role = 0;  // the DMRP_ANNOTATE_* are those of trajectories

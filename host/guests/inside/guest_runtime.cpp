@@ -174,12 +174,12 @@ GuestRuntime::Shown& GuestRuntime::shown(std::uint32_t robot) {
 
 const void* GuestRuntime::reading(std::uint32_t instance, GuestQuestion::Kind kind, std::uint32_t robot) {
   const Seat& own = seat(instance);
-  if (kind == GuestQuestion::subscribe_to_costmap) return ask_({kind, instance, robot, note_.call_number});
+  if (kind == GuestQuestion::subscribe_to_costmap) return ask_({kind, instance, robot});
   if (robot < own.first_robot || robot - own.first_robot >= own.robot_count) return nullptr;
   Shown& shown = this->shown(robot);
   shown.read |= 1u << kind;
   const void*& known = shown.readings.of[kind];
-  if (!known) known = ask_({kind, instance, robot, note_.call_number});
+  if (!known) known = ask_({kind, instance, robot});
   return known;
 }
 

@@ -97,6 +97,7 @@ class CarefulController final : public dmrp::LocalController {
     path_.assign(path.begin(), path.end());
     const dmrp::Robot& robot = world().robots()[robot_];
     expect(path_.back().x == robot.goals->pose.x && path_.back().y == robot.goals->pose.y, "the path ends at the goal");
+    expect(lidar_->scan(lidar_, robot_) != nullptr, "a scan before the first step");
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
@@ -115,6 +116,7 @@ class CarefulController final : public dmrp::LocalController {
     expect(costmap_->costmap(costmap_, robot_)->t_ns == now.t_ns, "a costmap of now");
     const dmrp_obstacle_cluster_list* clusters = clusters_->clusters(clusters_, robot_);
     expect(clusters->t_ns == now.t_ns && clusters == clusters_->clusters(clusters_, robot_), "clusters of now");
+    expect(scan.t_ns == now.t_ns && &scan == lidar_->scan(lidar_, robot_), "a scan that stays until the call returns");
     for (const std::uint32_t other : {1 - robot_, 2u, ~0u})
       expect(
           !lidar_->scan(lidar_, other) && !costmap_->costmap(costmap_, other) && !clusters_->clusters(clusters_, other),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/process/memory_file.hpp"
+#include "host/check/memory_file.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
