@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "host/check/case_process.hpp"
 #include "host/commands/arguments.hpp"
 #include "host/commands/command.hpp"
 #include "host/errors/input_error.hpp"
@@ -32,7 +33,7 @@ using namespace dmrp::host;
 
 // The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
-  if (argc == 4 && std::strcmp(argv[1], "nursery") == 0) return Nursery::run(std::atoi(argv[2]), std::atoi(argv[3]));
+  if (argc == 3 && std::strcmp(argv[1], "nursery") == 0) return Nursery::run(std::atoi(argv[2]), &run_case_in_guest);
   if (argc == 9 && std::strcmp(argv[1], "worker") == 0)
     return run_worker({argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
                        static_cast<unsigned>(std::strtoul(argv[4], nullptr, 10)),
@@ -62,18 +63,10 @@ int run_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.fallthrough();
-  CLI::Option* no_box = app.add_flag_callback("--no-box", &box::disable,
-                                              "let plugins start and reach other processes: for debuggers of plugins");
-  app.add_flag_callback("--sandbox", &box::demand_sandbox,
-                        "let plugins write in their scratch folder alone, and open no sockets")
-      ->excludes(no_box);
+  app.add_flag_callback("--no-box", &box::disable, "let plugins see and do what you can: for debuggers of plugins");
   app.footer(help_footer("dmrp-host examples/quickstart.toml"));
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("dmrp-host: ") + error.what() + " (see --help)\n";
-  });
-  app.parse_complete_callback([] {
-    if (const std::string gaps = box::sandbox_gaps(); !gaps.empty())
-      std::fprintf(stderr, "warning: --sandbox: %s\n", gaps.c_str());
   });
 #define DMRP_ADD(name) add_##name(app);
   DMRP_COMMANDS(DMRP_ADD)

@@ -7,6 +7,7 @@
 #include "host/experiment/identity.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/guests/probe.hpp"
+#include "host/process/box.hpp"
 
 namespace dmrp::host {
 
@@ -76,6 +77,17 @@ void write_bundle(const Experiment& experiment, const std::string& original, Man
   for (HashedFile& file : manifest.files) file.path = layout.name_of(file.path);
   write_file_atomically(folder / "manifest.json", to_json_text(manifest));
   check_bundle(experiment, folder);
+}
+
+void check_strangers(const fs::path& folder) {
+  std::error_code ignored;
+  if (box::kind() != "calls" || !fs::exists(folder / "original.toml", ignored) ||
+      !fs::exists(folder / "plugins", ignored))
+    return;
+  throw InputError(
+      fmt::format("{}: its plugins would see your files, as this kernel gives them no namespaces ({}): --trust "
+                  "runs them",
+                  folder.string(), view::gap()));
 }
 
 }  // namespace dmrp::host

@@ -18,4 +18,8 @@ namespace dmrp::host {
 void write_bundle(const Experiment& experiment, const std::string& original, Manifest manifest,
                   const BundleLayout& layout, const std::filesystem::path& folder);
 
+// Throws InputError if `folder` is a bundle that has plugins, and the kernel gives these no view of their own: they are
+// somebody else's, and would see the user's files.
+void check_strangers(const std::filesystem::path& folder);
+
 }  // namespace dmrp::host

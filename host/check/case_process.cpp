@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "host/check/case_process.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "host/check/memory_file.hpp"
 #include "host/errors/escaped_text.hpp"
+#include "host/guests/nursery.hpp"
+#include "host/plugins/calls/own_process.hpp"
 #include "host/process/box.hpp"
 #include "host/process/call_note.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/orphans.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/process/sanitized.hpp"
 #include "host/process/watchdog.hpp"
 
@@ -37,7 +45,7 @@ void send(const MemoryFile& answer, const nlohmann::json& message) {
   answer.append(message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-// In the child.
+// In the guest.
 void examine(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
              std::uint64_t seed, CallNote& note, const MemoryFile& answer) {
   const auto progress = [&](const std::string& what) { send(answer, {{"at", what}}); };
@@ -97,17 +105,50 @@ std::string explain(const ProcessEnding& ending, bool hung, bool too_large, cons
 
 }  // namespace
 
+int run_case_in_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors) {
+  const auto found = std::find_if(check_cases().begin(), check_cases().end(),
+                                  [&](const CheckCase& one) { return one.name == arguments.at(0); });
+  const std::filesystem::path file = arguments.at(1);
+  std::optional<PluginInfo> plugin;
+  if (!arguments.at(2).empty()) plugin = nlohmann::json::parse(arguments[2]).get<PluginInfo>();
+  for (const int descriptor : descriptors) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+  const MemoryFile answer(Descriptor(descriptors.at(0)));
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(descriptors.at(1), stream);
+  close(descriptors[1]);
+  const SharedCallNote note(Descriptor(descriptors.at(2)));
+  try {
+    adopt_orphans();
+    own_process::watch();
+    set_resource_limits(std::stoll(arguments.at(4)));
+    limit_files(file_mb);
+    box::enter(plugin && plugin->has_flag(DMRP_FLAG_PROCESSES), &note.note().refused);
+    examine(*found, file, plugin ? &*plugin : nullptr, std::stoull(arguments.at(3)), note.note(), answer);
+  } catch (const std::bad_alloc&) {
+    _exit(out_of_memory_exit);
+  }
+  std::fflush(stderr);
+  _exit(0);  // destructors of static objects in the library are not run
+}
+
 CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
                      std::uint64_t seed) {
-  adopt_orphans();
+  const Nursery& nursery = own_nursery();
   const MemoryFile answer_file;
   const MemoryFile output;
-  const SharedCallNote note(make_call_note());
+  Descriptor note_memory = make_call_note();
   const std::int64_t start_ns = monotonic_ns();
   const bool counts_resident = plugin && plugin->has_flag(DMRP_FLAG_RESIDENT_MEMORY);
-  ChildProcess child = ChildProcess::fork({counts_resident ? 0 : memory_mb, false, file_mb},
-                                          [&] { examine(check_case, file, plugin, seed, note.note(), answer_file); },
-                                          {output.descriptor(), &note.note().refused});
+  const std::int64_t group_mb = counts_resident ? 0 : memory_mb;
+  const std::string info = plugin ? nlohmann::json(*plugin).dump() : "";
+  const std::unique_ptr<ChildProcess> started =
+      nursery.start({GuestOrder::Program::check_case,
+                     {check_case.name, file.string(), info, std::to_string(seed),
+                      std::to_string(MemoryGroup::available() ? 0 : group_mb)},
+                     what_shows({"", file, {}}),
+                     {answer_file.descriptor(), output.descriptor(), note_memory.number()}},
+                    group_mb);
+  ChildProcess& child = *started;
+  const SharedCallNote note(std::move(note_memory));
   child.allow_cpu(processor_time_s(case_limit_s()));
   Watchdog watchdog;
   bool too_large = false;
@@ -117,7 +158,7 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   });
   child.kill();
   const ProcessEnding& ending = child.wait();
-  kill_orphans({});
+  kill_orphans({nursery.number()});
 
   CaseOutcome outcome;
   outcome.hung = !ended && !too_large;

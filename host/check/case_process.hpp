@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// case_process.hpp: runs one case in a child process, with limits of time, memory and files, in the box.
+// case_process.hpp: runs one case in a guest, with limits of time, memory and files.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/check/check_case.hpp"
 #include "host/check/examination.hpp"
@@ -22,5 +23,8 @@ struct CaseOutcome {
 // `plugin`: nullptr in cases of the library. Throws MachineError.
 CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
                      std::uint64_t seed);
+
+// The guest's program (host/guests/inside/guest_program.hpp).
+int run_case_in_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors);
 
 }  // namespace dmrp::host

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "host/process/descriptor.hpp"
 
@@ -11,7 +12,8 @@ namespace dmrp::host {
 
 class MemoryFile {
  public:
-  MemoryFile();  // throws MachineError
+  MemoryFile();                                                     // throws MachineError
+  explicit MemoryFile(Descriptor file) : file_(std::move(file)) {}  // another process has made it
 
   void append(std::string_view bytes) const;  // throws MachineError
   std::string read() const;

@@ -12,7 +12,7 @@ struct ProcessState {
   std::string folder;                    // working directory
   std::vector<std::string> environment;  // sorted
   std::vector<const void*> handlers;     // of signals
-  std::vector<std::string> descriptors;  // "3: /path", sorted
+  std::vector<std::string> descriptors;  // "3: file 17 of device 1", sorted
   unsigned file_mode_mask = 0;
 
   static ProcessState now();

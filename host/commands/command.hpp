@@ -28,4 +28,7 @@ class HelpFormatter final : public CLI::Formatter {
 
 unsigned default_jobs();  // one per core
 
+// Of run and verify.
+inline constexpr const char* trust_help = "run plugins of a bundle where the kernel gives them no namespaces";
+
 }  // namespace dmrp::host

@@ -61,7 +61,9 @@ class TraceSearch {
       const fs::path trace = trace_path(run_directory_, trial.id);
       if (trial.outcome == trial_outcome::skipped || trial.outcome == trial_outcome::fault)
         ++unfinished_;
-      else if (std::error_code ignored; fs::is_regular_file(trace, ignored))
+      else if (std::error_code ignored; fs::is_regular_file(trace, ignored) && !is_trace_of(trial, trace))
+        missing_.push_back(fmt::format("trial {}: {} was changed after the run", trial.id, trace.string()));
+      else if (fs::is_regular_file(trace, ignored))
         stored.push_back({trial.id, trial.seed, trace});
       else if (recorded_ == RecordTraces::none ||
                (recorded_ == RecordTraces::failed && trial.outcome == trial_outcome::succeeded))

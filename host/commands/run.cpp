@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "host/bundle/bundle.hpp"
 #include "host/commands/bundle_run.hpp"
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
@@ -24,6 +25,7 @@
 #include "host/run/run_directory.hpp"
 #include "host/run/run_results.hpp"
 #include "host/terminal/progress.hpp"
+#include "host/workers/open_trial.hpp"
 #include "host/workers/stored_plan.hpp"
 #include "host/workers/supervisor.hpp"
 
@@ -41,6 +43,7 @@ struct RunOptions {
   bool retry_faults = false;  // resume: trials with faults, too
   std::string shard;          // "I/N"; empty: the whole
   std::uint32_t trials = 0;   // 0: as the file says
+  bool trust = false;         // plugins of a bundle
   bool quiet = false;
   bool json = false;                      // results as JSON, without progress
   fs::path bundle;                        // to be written afterwards; empty: none
@@ -137,6 +140,23 @@ class RunFiles {
   RunDirectory directory_;
 };
 
+// Rows that are there must be those of the experiment, with the plans that are there.
+void check_rows(const ResultsDatabase& database, const Experiment& experiment, const fs::path& directory) {
+  const StoredPlans plans(directory);
+  const std::vector<Combination> all = combinations(experiment);
+  for (const TrialRecord& trial : database.trials_with_events_of("")) {
+    const auto fail = [&](const std::string& why) {
+      throw InputError(fmt::format("--out {}: trial {}: {}", directory.string(), trial.id, why));
+    };
+    if (trial.id >= all.size() * experiment.trials) fail("is none of this experiment");
+    if (trial.outcome == trial_outcome::skipped) continue;
+    if (const std::string why = misplacement(trial, row_of(experiment, trial.id)); !why.empty()) fail(why);
+    const std::string plan = plan_name(all[trial_id(trial.id, all.size()).combination], trial.repetition);
+    if (trial.plan_sha256.empty() || !plans.has(plan)) continue;
+    if (plans.read_call(plan).paths_sha256 != trial.plan_sha256) fail("had another plan than plans/" + plan + ".csv");
+  }
+}
+
 // The manifest of the first start, with what only the end of a run can tell.
 void complete_manifest(const fs::path& directory, std::span<const TrialRecord> trials) {
   Manifest manifest = read_manifest(directory / "manifest.json");
@@ -149,6 +169,7 @@ int run_command(const RunOptions& options) {
   if (options.debugged) return debug_trial(options.experiment, options.trials, *options.debugged);
   signal(SIGPIPE, SIG_IGN);  // results are kept although nobody reads what is printed
   check_new_bundle(options.bundle);
+  if (!options.trust) check_strangers(fs::absolute(options.experiment).parent_path());
   const Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
   check_planners(experiment, options.experiment);
   if (!options.quiet)
@@ -162,6 +183,7 @@ int run_command(const RunOptions& options) {
   const std::uint64_t in_shard = PlannedTrials(shard.index, shard.count, count, {}).all();
   const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line()));
   ResultsDatabase database = ResultsDatabase::open(files.database());
+  if (options.resume) check_rows(database, experiment, files.directory());
   if (options.retry_faults) StoredPlans(files.directory()).delete_faults();
   PlannedTrials trials(shard.index, shard.count, count,
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
@@ -232,6 +254,7 @@ void add_run(CLI::App& app) {
   command->add_option("--trials", options->trials, "repetitions of each combination; overrides the file")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("K");
+  command->add_flag("--trust", options->trust, trust_help);
   CLI::Option* quiet = command->add_flag("--quiet", options->quiet, "print neither progress nor results");
   command->add_flag("--json", options->json, "print the results as JSON, and no progress")->excludes(quiet);
   command->add_option("--bundle", options->bundle, "then write a folder that repeats the run elsewhere (see bundle)")

@@ -21,13 +21,16 @@ fs::path trace_of(const fs::path& run_directory, const char* option, std::uint64
   if (std::error_code ignored; !fs::is_regular_file(database, ignored))
     throw InputError(fmt::format("{}: is no run directory (there is no results.sqlite)", run_directory.string()));
   const std::vector<TrialRecord> trials = ResultsDatabase::open_read_only(database).trials_with_events_of("");
-  if (std::none_of(trials.begin(), trials.end(), [&](const TrialRecord& known) { return known.id == trial; }))
+  const auto row = std::find_if(trials.begin(), trials.end(), [&](const TrialRecord& one) { return one.id == trial; });
+  if (row == trials.end())
     throw InputError(fmt::format("{} {}: {} has {}, from {} to {}", option, trial, run_directory.string(),
                                  plural(trials.size(), "finished trial"), trials.empty() ? 0 : trials.front().id,
                                  trials.empty() ? 0 : trials.back().id));
   const fs::path trace = trace_path(run_directory, trial);
   if (std::error_code ignored; !fs::is_regular_file(trace, ignored))
     throw InputError(fmt::format("{} {}: no trace was recorded (traces = \"all\" in [record])", option, trial));
+  if (!is_trace_of(*row, trace))
+    throw InputError(fmt::format("{} {}: {} was changed after the run", option, trial, trace.string()));
   return trace;
 }
 

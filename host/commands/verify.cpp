@@ -7,6 +7,7 @@
 #include <numeric>
 #include <system_error>
 
+#include "host/bundle/bundle.hpp"
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
@@ -31,6 +32,7 @@ struct VerifyOptions {
   std::size_t trials = 10;  // at most
   std::uint64_t seed = 1;   // chooses the trials and their order
   unsigned jobs = default_jobs();
+  bool trust = false;  // plugins of a bundle
 };
 
 // A folder for this time, deleted at the end.
@@ -151,6 +153,7 @@ int verify_command(const VerifyOptions& options) {
   const ResultsDatabase database = ResultsDatabase::open_read_only(directory / "results.sqlite");
   const StoredDigests digests(directory);
   const Manifest before = read_manifest(directory / "manifest.json");
+  if (!options.trust) check_strangers(directory);
   const Experiment experiment = load_experiment(directory / "effective.toml", 0, &probe_library);
   if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}), directory)) return exit_status::different;
 
@@ -196,6 +199,7 @@ void add_verify(CLI::App& app) {
   command->add_option("--jobs", options->jobs, "worker processes (default: one per core)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
+  command->add_flag("--trust", options->trust, trust_help);
   finish_command(command, "dmrp-host verify runs/quickstart --trials 2",
                  [options] { return verify_command(*options); });
 }

@@ -54,7 +54,7 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
   for (const fs::path& file : candidate_libraries(libraries, id)) {
     Probe probe;
     try {
-      probe = source(file);
+      probe = source(file, {});
     } catch (const std::runtime_error& error) {
       throw InputError(file.string() + ": " + error.what());
     }

@@ -23,7 +23,7 @@ struct RunLimits {
   double step_time_s = 1.0;      // for every other call
   double trial_wall_time_s = 600.0;
   std::int64_t memory_mb = 4096;  // of a guest; 0: none
-  bool processes = false;         // plugins that declare it may start processes
+  VisiblePaths visible{};         // to all plugins; absolute
 };
 
 // A key of [simulation], [recovery] or [robot] that has a list of values; the scenario variants have them.
@@ -94,7 +94,7 @@ std::uint64_t task_seed(const Experiment& experiment, const std::string& scenari
 std::uint64_t trial_seed(const Experiment& experiment, std::uint64_t trial);  // the world_seed() of a trial
 
 // Describes the plugins of a library: by a probe in a guest, or by loading the library.
-using PluginSource = std::function<Probe(const std::filesystem::path&)>;
+using PluginSource = std::function<Probe(const std::filesystem::path& file, const VisiblePaths& visible)>;
 
 // Reads and checks an experiment. Every mistake is an InputError in one line. `trials` > 0 replaces the file's number.
 // `tried_by`: for a source that loads libraries into this process. If the experiment leaves out what cannot be loaded, it

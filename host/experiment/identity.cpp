@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/files/sha256.hpp"
+#include "host/process/environment.hpp"
 #include "host/toml/toml_text.hpp"
 
 namespace dmrp::host {
@@ -84,7 +85,10 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
   for (std::string line; std::getline(lines, line);) reader.read(line);
   std::map<std::string, std::string> identity = reader.take();
   identity["behaviour"] = std::to_string(behaviour);
-  for (const char* key : {"experiment.name", "experiment.trials", "experiment.plugins"}) identity.erase(key);
+  for (const char* key : {"experiment.name", "experiment.trials", "experiment.plugins", "limits.visible"})
+    identity.erase(key);
+  if (const std::vector<std::string> variables = passed_environment(); !variables.empty())
+    identity["environment"] = toml_text(variables);
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
     for (std::size_t i = 0; i < uses->size(); ++i) {

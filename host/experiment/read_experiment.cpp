@@ -15,6 +15,7 @@
 #include "host/experiment/settings_sweep.hpp"
 #include "host/experiment/settings_tables.hpp"
 #include "host/files/read_file.hpp"
+#include "host/process/box.hpp"
 #include "host/scenario/robot_tables.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "host/toml/setting.hpp"
@@ -150,15 +151,25 @@ void check_ordered_execution(const TomlTable& root, const Experiment& experiment
   }
 }
 
-// The box keeps plugins from starting processes.
+// Plugins start processes in a namespace of their own.
 void check_processes(const TomlTable& root, Experiment& experiment) {
-  if (experiment.limits.processes) return;
+  if (box::kind() != "calls") return;
   for (const auto& [kind, uses] : lists_by_kind(experiment))
     for (const PluginUse& use : *uses)
       if (use.info.has_flag(DMRP_FLAG_PROCESSES))
         root.find_table("experiment")
             ->need("plugins")
-            .fail(fmt::format("{} starts processes: '[limits] processes = true' allows that", use.info.id));
+            .fail(
+                fmt::format("{} starts processes, which need namespaces ({}): see --no-box", use.info.id, view::gap()));
+}
+
+// Plugins see the files that their parameters name.
+void show_parameters(Experiment& experiment) {
+  for (const auto& [kind, uses] : lists_by_kind(experiment))
+    for (const PluginUse& use : *uses)
+      for (const ParameterValue& value : use.parameters)
+        if (value.type == DMRP_PARAM_PATH && fs::path(value.text).is_absolute())
+          experiment.libraries[use.library].visible.push_back(value.text);
 }
 
 TomlKeys root_keys() {
@@ -245,9 +256,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   Mistakes mistakes;
   mistakes.attempt([&] { root.allow_only_keys(document.keys_of("")->keys); });
+  mistakes.attempt([&] { read_run_settings(root, experiment); });  // libraries are loaded within the limits
   mistakes.attempt([&] { read_header(document, trials, source, tried_by, experiment); });
   const bool has_settings = mistakes.attempt([&] { read_world_settings(root, experiment); });
-  mistakes.attempt([&] { read_run_settings(root, experiment); });
   std::vector<ScenarioUse> scenario_uses;
   const bool has_scenarios = mistakes.attempt([&] { read_scenario_uses(root, experiment, scenario_uses); });
   const bool all_libraries = has_all_libraries(root, experiment);
@@ -264,6 +275,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   mistakes.end();
+  show_parameters(experiment);
   return experiment;
 }
 

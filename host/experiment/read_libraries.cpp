@@ -39,9 +39,9 @@ namespace fs = std::filesystem;
 }
 
 // Describes the library, or says in `init_error` why it cannot be loaded.
-Probe try_source(const PluginSource& source, const fs::path& file) {
+Probe try_source(const PluginSource& source, const fs::path& file, const VisiblePaths& visible) {
   try {
-    return source(file);
+    return source(file, visible);
   } catch (const std::runtime_error& error) {  // a failure of the machine is none
     return {{}, {}, {}, error.what()};
   }
@@ -69,8 +69,8 @@ void read_library(const TomlDocument& document, const TomlValue& value, const Pl
   for (const LibraryUse& other : experiment.libraries)
     if (other.file == file) value.fail(fmt::format("{}: the library is named twice", name));
   Probe probe;
-  if (experiment.skips_unloadable && tried_by) probe = try_source(tried_by, file);
-  if (probe.init_error.empty()) probe = try_source(source, file);
+  if (experiment.skips_unloadable && tried_by) probe = try_source(tried_by, file, experiment.limits.visible);
+  if (probe.init_error.empty()) probe = try_source(source, file, experiment.limits.visible);
   if (!probe.init_error.empty()) {
     const std::string why = fmt::format("{}: {}", name, probe.init_error);
     if (!experiment.skips_unloadable) value.fail(why);
@@ -79,7 +79,7 @@ void read_library(const TomlDocument& document, const TomlValue& value, const Pl
   }
   for (const std::string& warning : probe.warnings)
     experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
-  experiment.libraries.push_back({name, file, probe.plugins, probe.objects});
+  experiment.libraries.push_back({name, file, probe.plugins, probe.objects, experiment.limits.visible});
   for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
 }
 

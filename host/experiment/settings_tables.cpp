@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/errors/mistakes.hpp"
+#include "host/process/view.hpp"
 #include "host/scenario/robot_tables.hpp"
 
 namespace dmrp::host {
@@ -137,11 +138,28 @@ Settings record_settings(Experiment& experiment) {
           boolean("annotations", experiment.annotations)};
 }
 
-Settings limits_settings(RunLimits& to) {
+// Relative to the folder of the experiment.
+Setting visible_setting(VisiblePaths& to, const std::filesystem::path& base) {
+  const auto read = [&to, base](const TomlValue& value) {
+    to.clear();
+    for (const TomlValue& written : value.array()) {
+      const std::filesystem::path path = (base / written.text()).lexically_normal();
+      if (std::error_code ignored; !std::filesystem::exists(path, ignored))
+        written.fail(fmt::format("'visible' names no file or folder: '{}'", written.text()));
+      if (path == "/") written.fail("'visible' must not be '/' (plugins that see everything: --no-box)");
+      if (path == view::scratch)
+        written.fail(fmt::format("'visible' must not be '{}': plugins have their own", path.string()));
+      to.push_back(path);
+    }
+  };
+  return {"visible", read, [&to] { return toml_text(std::vector<std::string>(to.begin(), to.end())); }, "paths"};
+}
+
+Settings limits_settings(RunLimits& to, const std::filesystem::path& base = {}) {
   return {number("planner_time_s", to.planner_time_s, min_time_s, max_time_s),
           number("step_time_s", to.step_time_s, min_time_s, max_time_s),
           number("trial_wall_time_s", to.trial_wall_time_s, min_time_s, max_time_s),
-          integer("memory_mb", to.memory_mb, 0, 1 << 30), boolean("processes", to.processes)};
+          integer("memory_mb", to.memory_mb, 0, 1 << 30), visible_setting(to.visible, base)};
 }
 
 // A value that can be simulated, but is rarely meant.
@@ -204,7 +222,8 @@ void read_run_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("record")) table->read(readers_of(record_settings(experiment)));
   });
   mistakes.attempt([&] {
-    if (const auto table = root.find_table("limits")) table->read(readers_of(limits_settings(experiment.limits)));
+    if (const auto table = root.find_table("limits"))
+      table->read(readers_of(limits_settings(experiment.limits, experiment.file.parent_path())));
   });
   mistakes.end();
 }

@@ -12,7 +12,6 @@ GuestLimits limits_of(const RunLimits& limits, std::int32_t log_level) {
   GuestLimits out;
   out.memory_mb = limits.memory_mb;
   out.data_mb = MemoryGroup::available() ? 0 : limits.memory_mb;
-  out.processes = limits.processes;
   out.trial_wall_time_s = limits.trial_wall_time_s;
   out.plain_log_level = log_level;
   return out;

@@ -15,6 +15,7 @@
 #include "host/plugins/calls/call_guard.hpp"
 #include "host/process/box.hpp"
 #include "host/process/orphans.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/results/whole_number.hpp"
 
 namespace dmrp::host {
@@ -76,9 +77,10 @@ void GuestProcess::start(const LibraryUse& library, int spool) {
   turn_ = 0;
   ended_ = false;
   set_memory(memory_->judge_arena(), memory_->output_arena());
-  process_ = nursery_.start({library.written, library.file, limits_.scratch, limits_.data_mb, limits_.processes,
-                             limits_.plain_log_level, spool, memory_->place()},
-                            limits_.memory_mb);
+  process_ = nursery_.start(
+      order_of({library.written, library.file, box::has_view() ? view::scratch : limits_.scratch, limits_.data_mb,
+                library.starts_processes(), limits_.plain_log_level, what_shows(library), spool, memory_->place()}),
+      limits_.memory_mb);
   started_(process_->number());
   allow_processor_time();
 }

@@ -20,12 +20,13 @@ class Nursery {
   Nursery& operator=(const Nursery&) = delete;
 
   // Starts a guest, a child of this process, in a memory group with this limit where there can be one. Throws MachineError.
-  std::unique_ptr<ChildProcess> start(const GuestSetup& setup, std::int64_t group_memory_mb) const;
+  std::unique_ptr<ChildProcess> start(const GuestOrder& order, std::int64_t group_memory_mb) const;
 
   pid_t number() const { return pid_; }
 
-  // The program of a process that cannot copy itself, as it knows something (`dmrp-host nursery`). Returns the exit status.
-  static int run(int socket, pid_t judge);
+  // The program of a process that cannot copy itself, as it knows something (`dmrp-host nursery`). `check_case`: the guest's
+  // program of that name. Returns the exit status.
+  static int run(int socket, GuestProgram check_case);
 
  private:
   friend const Nursery& own_nursery();

@@ -32,7 +32,7 @@ std::string text_of(const GuestEnd& end) {
 
 }  // namespace
 
-Probe probe_library(const std::filesystem::path& file) {
+Probe probe_library(const std::filesystem::path& file, const VisiblePaths& visible) {
   GuestLimits limits;
   limits.trial_wall_time_s = static_cast<double>(limit_s);
   limits.plain_log_level = DMRP_LOG_ERROR + 1;  // none
@@ -41,7 +41,7 @@ Probe probe_library(const std::filesystem::path& file) {
   const Nursery& nursery = own_nursery();
   try {
     GuestProcess guest(
-        nursery, {"", file, {}}, limits, GuestTask::probe, -1, [](pid_t) {}, looked);
+        nursery, {"", file, {}, {}, visible}, limits, GuestTask::probe, -1, [](pid_t) {}, looked);
     const nlohmann::json answer = nlohmann::json::parse(guest.loaded());
     kill_orphans({nursery.number()});
     return {answer.at("plugins").get<std::vector<PluginInfo>>(), answer.at("warnings").get<std::vector<std::string>>(),

@@ -6,11 +6,12 @@
 #include <filesystem>
 
 #include "host/plugins/library.hpp"
+#include "host/plugins/plugin_use.hpp"
 
 namespace dmrp::host {
 
 // Calls init() too, so that a library that cannot work here is found before a run begins. Throws std::runtime_error in one
 // line, or MachineError.
-Probe probe_library(const std::filesystem::path& file);
+Probe probe_library(const std::filesystem::path& file, const VisiblePaths& visible = {});
 
 }  // namespace dmrp::host

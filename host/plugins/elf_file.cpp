@@ -9,8 +9,11 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <set>
+#include <sstream>
 
 #include "host/files/sha256.hpp"
+#include "host/program/executable.hpp"
 
 namespace dmrp::host {
 
@@ -21,6 +24,8 @@ constexpr std::uint16_t this_machine = EM_AARCH64;
 #else
 constexpr std::uint16_t this_machine = EM_X86_64;
 #endif
+
+constexpr std::uint64_t most_name_bytes = 65536;
 
 std::string machine_name(std::uint16_t machine) {
   switch (machine) {
@@ -101,6 +106,22 @@ class LoadedParts {
   // Without the folders in which libraries are searched.
   const std::vector<Elf64_Dyn>& dynamic() const { return dynamic_; }
 
+  // The libraries that it needs, by name, and the folders in which it has them searched, as written.
+  std::vector<std::string> needed() const {
+    std::vector<std::string> names;
+    for (const Elf64_Dyn& entry : dynamic_)
+      if (entry.d_tag == DT_NEEDED) names.push_back(string_at(entry.d_un.d_val));
+    return names;
+  }
+  std::vector<std::string> folders() const {
+    std::vector<std::string> out;
+    for (const std::uint64_t place : folders_) {
+      std::istringstream list(string_at(place));
+      for (std::string folder; std::getline(list, folder, ':');) out.push_back(folder);
+    }
+    return out;
+  }
+
   // Overwrites what may differ between two copies of a library.
   void blank(const Elf64_Phdr& segment, std::string& content) const {
     for (const Range& range : blanks_) {
@@ -117,6 +138,11 @@ class LoadedParts {
     std::uint64_t bytes;
   };
 
+  std::string string_at(std::uint64_t place) const {
+    const auto strings = rest_of_strings(place);
+    return strings ? elf_.text(strings->offset, std::min(strings->bytes, most_name_bytes)).c_str() : "";
+  }
+
   void read_dynamic(const Elf64_Phdr& part) {
     blanks_.push_back({part.p_offset, part.p_filesz});
     for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn)) {
@@ -130,16 +156,22 @@ class LoadedParts {
     }
   }
 
+  // From a place in the table of strings to the end of its segment.
+  std::optional<Range> rest_of_strings(std::uint64_t place) const {
+    const std::uint64_t address = strings_ + place;
+    for (const Elf64_Phdr& segment : segments_)
+      if (address >= segment.p_vaddr && address < segment.p_vaddr + segment.p_filesz)
+        return Range{segment.p_offset + (address - segment.p_vaddr), segment.p_filesz - (address - segment.p_vaddr)};
+    return std::nullopt;
+  }
+
   // A shorter text may stand in the place of a longer one, with zeros after it.
   void blank_folders() {
     for (const std::uint64_t folder : folders_)
-      for (const Elf64_Phdr& segment : segments_) {
-        const std::uint64_t address = strings_ + folder;
-        if (address < segment.p_vaddr || address >= segment.p_vaddr + segment.p_filesz) continue;
-        const std::uint64_t offset = segment.p_offset + (address - segment.p_vaddr);
-        const std::string rest = elf_.text(offset, segment.p_filesz - (address - segment.p_vaddr));
+      if (const auto strings = rest_of_strings(folder)) {
+        const std::string rest = elf_.text(strings->offset, strings->bytes);
         const std::size_t end = std::min(rest.find_first_not_of('\0', rest.find('\0')), rest.size());
-        blanks_.push_back({offset, end});
+        blanks_.push_back({strings->offset, end});
       }
   }
 
@@ -190,6 +222,40 @@ std::string code_digest(const std::filesystem::path& file) {
   }
   for (const Elf64_Dyn& entry : parts.dynamic()) hash.add(&entry, sizeof(entry));
   return hash.finish();
+}
+
+namespace {
+
+// With the folder of the library in place of $ORIGIN.
+std::filesystem::path expanded(std::string folder, const std::filesystem::path& library) {
+  for (const std::string word : {"${ORIGIN}", "$ORIGIN"})
+    if (const std::size_t at = folder.find(word); at != std::string::npos)
+      folder.replace(at, word.size(), library.parent_path().string());
+  return folder;
+}
+
+// Not a file that is no library: plugins would see it without loading it.
+void add_files_of(const std::filesystem::path& library, std::set<std::filesystem::path>& files) {
+  ElfFile elf(library);
+  const auto head = elf.read<Elf64_Ehdr>(0);
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || !files.insert(library).second) return;
+  const LoadedParts parts(elf, *head);
+  std::vector<std::filesystem::path> folders = folders_of_variable("LD_LIBRARY_PATH");
+  for (const std::string& folder : parts.folders()) folders.push_back(expanded(folder, library));
+  for (const std::string& name : parts.needed()) {
+    if (name.find('/') != std::string::npos) add_files_of(name, files);
+    for (const std::filesystem::path& folder : folders)
+      if (std::error_code ignored; std::filesystem::is_regular_file(folder / name, ignored))
+        add_files_of(folder / name, files);
+  }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> files_of_library(const std::filesystem::path& file) {
+  std::set<std::filesystem::path> files;
+  add_files_of(file, files);
+  return {files.begin(), files.end()};
 }
 
 std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file) {

@@ -22,6 +22,10 @@ struct ExportedSymbol {
 // Those of a shared object of this machine; empty if they cannot be read.
 std::vector<ExportedSymbol> exported_symbols(const std::filesystem::path& file);
 
+// The library, and those which the loader may take for what it needs from folders that they or LD_LIBRARY_PATH name. Those of
+// the system are not in it.
+std::vector<std::filesystem::path> files_of_library(const std::filesystem::path& file);
+
 // SHA-256, hexadecimal, of all that is loaded of it, but for what names folders and builds: equal for a library in the
 // build tree, installed (another RUNPATH) and stripped. Of the whole file if it is no ELF file.
 std::string code_digest(const std::filesystem::path& file);

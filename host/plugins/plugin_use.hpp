@@ -2,6 +2,7 @@
 // plugin_use.hpp: the libraries and plugins that an experiment uses, with the values of their parameters.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,12 +14,21 @@
 
 namespace dmrp::host {
 
+// Files and folders.
+using VisiblePaths = std::vector<std::filesystem::path>;
+
 // A library that the experiment names.
 struct LibraryUse {
   std::string written;         // as in the file
   std::filesystem::path file;  // absolute
   std::vector<PluginInfo> plugins;
   std::vector<std::string> objects{};  // shared objects that are loaded with it
+  VisiblePaths visible{};              // what its plugins see besides its files (host/process/view.hpp); absolute
+
+  bool starts_processes() const {
+    return std::any_of(plugins.begin(), plugins.end(),
+                       [](const PluginInfo& info) { return info.has_flag(DMRP_FLAG_PROCESSES); });
+  }
 };
 
 // A controller that an experiment names as a bound of what is possible (host/ranking/bounds.hpp).

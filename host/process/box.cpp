@@ -20,6 +20,7 @@
 
 #include "host/errors/machine_error.hpp"
 #include "host/process/descriptor.hpp"
+#include "host/process/environment.hpp"
 #include "host/process/landlock.hpp"
 #include "host/process/sanitized.hpp"
 
@@ -27,8 +28,7 @@ namespace dmrp::host::box {
 
 namespace {
 
-constexpr const char* off_variable = "DMRP_NO_BOX";       // children inherit it
-constexpr const char* sandbox_variable = "DMRP_SANDBOX";  // likewise
+constexpr const char* off_variable = "DMRP_NO_BOX";  // children inherit it
 constexpr rlim_t most_descriptors = 4096;
 constexpr rlim_t most_file_bytes = rlim_t{1} << 36;  // traces of a night are smaller
 
@@ -41,6 +41,10 @@ scmp_arg_cmp is(unsigned argument, std::uint32_t value) {
 
 scmp_arg_cmp is_not(unsigned argument, std::uint64_t value) {
   return {argument, SCMP_CMP_NE, value, 0};
+}
+
+scmp_arg_cmp has(unsigned argument, std::uint64_t bit) {
+  return {argument, SCMP_CMP_MASKED_EQ, bit, bit};
 }
 
 scmp_arg_cmp lacks(unsigned argument, std::uint64_t bit) {
@@ -79,10 +83,6 @@ bool is_on() {
   return !sanitizer_is_loaded() && !std::getenv(off_variable);
 }
 
-bool is_sandbox() {
-  return std::getenv(sandbox_variable) != nullptr;
-}
-
 bool has_filters() {
   return prctl(PR_GET_SECCOMP) >= 0;
 }
@@ -100,11 +100,16 @@ void refuse_reaching_others(Filter& filter) {
     filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(ioctl)}, {is(1, request)});
   for (const std::uint32_t command : {F_SETOWN, F_SETOWN_EX, F_SETSIG})
     filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(fcntl)}, {is(1, command)});
+  // with one, a process would have capabilities
+  filter.add(SCMP_ACT_ERRNO(EPERM), {SCMP_SYS(clone)}, {has(0, CLONE_NEWUSER)});
+  // the C library then uses clone(), whose arguments can be seen
+  filter.add(SCMP_ACT_ERRNO(ENOSYS), {SCMP_SYS(clone3)});
   // memory that no limit counts, or that other processes of the user share
-  filter.add(SCMP_ACT_ERRNO(EPERM),
-             {SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(msgget), SCMP_SYS(msgsnd), SCMP_SYS(msgrcv),
-              SCMP_SYS(msgctl), SCMP_SYS(semget), SCMP_SYS(semop), SCMP_SYS(semtimedop), SCMP_SYS(semctl),
-              SCMP_SYS(add_key), SCMP_SYS(request_key), SCMP_SYS(keyctl), SCMP_SYS(userfaultfd)});
+  filter.add(
+      SCMP_ACT_ERRNO(EPERM),
+      {SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(msgget), SCMP_SYS(msgsnd), SCMP_SYS(msgrcv),
+       SCMP_SYS(msgctl), SCMP_SYS(semget), SCMP_SYS(semop), SCMP_SYS(semtimedop), SCMP_SYS(semctl), SCMP_SYS(add_key),
+       SCMP_SYS(request_key), SCMP_SYS(keyctl), SCMP_SYS(userfaultfd), SCMP_SYS(memfd_create)});
   // no filter sees what a ring asks for; libraries then do without
   filter.add(SCMP_ACT_ERRNO(ENOSYS), {SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter), SCMP_SYS(io_uring_register)});
 }
@@ -115,26 +120,12 @@ void refuse_processes(Filter& filter) {
   filter.add(SCMP_ACT_TRAP, {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(tgkill)},
              {is_not(0, static_cast<std::uint64_t>(getpid()))});
   filter.add(SCMP_ACT_TRAP, {SCMP_SYS(clone)}, {lacks(0, CLONE_THREAD)});
-  // the C library then uses clone(), whose arguments can be seen
-  filter.add(SCMP_ACT_ERRNO(ENOSYS), {SCMP_SYS(clone3)});
-}
-
-void refuse_as_sandbox(Filter& filter) {
-  filter.add(SCMP_ACT_ERRNO(EACCES), {SCMP_SYS(socket)});
-  constexpr int fchmodat2 = 452;  // older headers do not name it
-  // Landlock does not cover modes, owners, times and attributes of files
-  filter.add(SCMP_ACT_ERRNO(EPERM),
-             {SCMP_SYS(chmod), SCMP_SYS(chown), SCMP_SYS(lchown), SCMP_SYS(utime), SCMP_SYS(utimes),
-              SCMP_SYS(futimesat), SCMP_SYS(fchmod), SCMP_SYS(fchmodat), fchmodat2, SCMP_SYS(fchown),
-              SCMP_SYS(fchownat), SCMP_SYS(utimensat), SCMP_SYS(setxattr), SCMP_SYS(lsetxattr), SCMP_SYS(fsetxattr),
-              SCMP_SYS(removexattr), SCMP_SYS(lremovexattr), SCMP_SYS(fremovexattr)});
 }
 
 void install_filter(bool processes_allowed) {
   Filter filter;
   refuse_reaching_others(filter);
   if (!processes_allowed) refuse_processes(filter);
-  if (is_sandbox()) refuse_as_sandbox(filter);
   filter.load();
 }
 
@@ -165,28 +156,24 @@ void disable() {
   setenv(off_variable, "1", 1);
 }
 
-void demand_sandbox() {
-  setenv(sandbox_variable, "1", 1);
-}
-
 std::string gaps() {
   if (!is_on()) return "";
   if (!has_filters()) return "plugins can start and reach other processes: the kernel has no seccomp filters";
   if (geteuid() == 0 && !landlock::sets_apart(landlock::version()))
     return "plugins can change the memory of your other processes: you are root, and the kernel's Landlock does not "
            "refuse it";
+  if (const std::string why = view::gap(); !why.empty())
+    return "plugins can read and change your files, and reach the network (" + why + ")";
   return "";
-}
-
-std::string sandbox_gaps() {
-  if (!is_sandbox()) return "";
-  if (sanitizer_is_loaded()) return "plugins are in no sandbox: sanitizers exclude it";
-  return landlock::gap(landlock::version());
 }
 
 std::string kind() {
   if (!is_on()) return "none";
-  return is_sandbox() ? "sandbox" : "box";
+  return has_view() ? "namespaces" : "calls";
+}
+
+bool has_view() {
+  return is_on() && view::gap().empty();
 }
 
 void hide() {
@@ -203,12 +190,10 @@ void enter(bool processes_allowed, std::atomic<std::int32_t>* refused, const std
   action.sa_sigaction = &note_refusal;
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
   sigaction(SIGSYS, &action, nullptr);
+  reduce_environment(scratch);
   leave_terminal();
   hide();
-  if (is_sandbox())
-    landlock::restrict_writing(scratch);
-  else
-    landlock::set_apart();
+  landlock::set_apart();
   if (has_filters()) install_filter(processes_allowed);
 }
 

@@ -16,13 +16,11 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <new>
 #include <string_view>
 #include <utility>
 
 #include "host/errors/machine_error.hpp"
 #include "host/process/box.hpp"
-#include "host/process/own_process.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -54,31 +52,16 @@ void begin_child(std::string_view oom_score) {
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
 }
 
-// In the child.
-[[noreturn]] void run_child(pid_t parent, int output, std::string_view oom_score,
-                            const std::function<void()>& function) noexcept {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
-  begin_child(oom_score);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
-  try {
-    function();
-  } catch (const std::bad_alloc&) {
-    _exit(out_of_memory_exit);
-  }
-  std::fflush(stderr);
-  _exit(0);  // not exit(): that would run destructors of static objects in plugin libraries
-}
-
 // Between fork and exec: only async-signal-safe functions.
-void execute_program(const char* const* arguments, const ChildProcess::Program& program) {
+[[noreturn]] void execute_program(const char* const* arguments, const ChildProcess::Program& program) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   if (program.ignores_terminal)
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(number, SIG_IGN);
   signal(SIGPIPE, SIG_DFL);
+  dup2(program.output, STDOUT_FILENO);
+  dup2(program.output, STDERR_FILENO);
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   for (const int descriptor : program.inherited) fcntl(descriptor, F_SETFD, 0);
   execv(arguments[0], const_cast<char* const*>(arguments));
@@ -126,35 +109,19 @@ ChildProcess ChildProcess::execute(const Program& program) {
   std::vector<const char*> arguments = {executable.c_str()};
   for (const std::string& argument : program.arguments) arguments.push_back(argument.c_str());
   arguments.push_back(nullptr);
-  return ChildProcess(program.output, nullptr, [&] { execute_program(arguments.data(), program); });
-}
-
-ChildProcess ChildProcess::fork(const ProcessLimits& limits, const std::function<void()>& function,
-                                const Notes& notes) {
-  std::unique_ptr<MemoryGroup> group = MemoryGroup::make(limits.memory_mb);
-  const std::int64_t data_mb = group ? 0 : limits.memory_mb;
-  return ChildProcess(notes.output, std::move(group), [&] {
-    set_resource_limits(data_mb);
-    if (limits.file_mb > 0) limit_files(limits.file_mb);
-    own_process::watch();
-    box::enter(limits.processes, notes.refused);
-    function();
-  });
-}
-
-ChildProcess::ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function)
-    : group_(std::move(group)) {
   box::hide();
   std::fflush(nullptr);  // buffered output would be written twice
   const pid_t parent = getpid();
   const std::string oom_score = oom_score_of_children();
-  pid_ = ::fork();
-  if (pid_ < 0) throw MachineError("fork", errno);
-  if (pid_ == 0) {
-    if (group_ && !group_->enter()) _exit(start_failed_exit);
-    run_child(parent, output, oom_score, function);
+  const pid_t child = fork();
+  if (child < 0) throw MachineError("fork", errno);
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(start_failed_exit);  // it ended before prctl()
+    begin_child(oom_score);
+    execute_program(arguments.data(), program);
   }
-  watch();
+  return ChildProcess(child, nullptr);
 }
 
 ChildProcess::ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group) : group_(std::move(group)), pid_(number) {

@@ -8,9 +8,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +16,6 @@
 #include "host/process/descriptor.hpp"
 #include "host/process/fault_kind.hpp"
 #include "host/process/memory_group.hpp"
-#include "host/process/resource_limits.hpp"
 
 namespace dmrp::host {
 
@@ -73,19 +70,6 @@ class ChildProcess {
   // Starts dmrp-host again. Throws MachineError.
   static ChildProcess execute(const Program& program);
 
-  // Where a copy writes what it prints, and a refused system call (box.hpp).
-  struct Notes {
-    int output = STDERR_FILENO;  // for its standard output and standard error
-    std::atomic<std::int32_t>* refused = nullptr;
-  };
-
-  // Calls `function` in a copy of this process, within these limits and the box. The copy never returns to the caller and runs no destructors of static objects. Its exit status
-  // is 0, or out_of_memory_exit if the function throws std::bad_alloc. Throws MachineError.
-  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function, const Notes& notes);
-  static ChildProcess fork(const ProcessLimits& limits, const std::function<void()>& function) {
-    return fork(limits, function, Notes());
-  }
-
   // A child that this process has already, which does nothing before it is told to. Puts it into a memory group, where there
   // can be one. Throws MachineError.
   static std::unique_ptr<ChildProcess> adopt(pid_t number, std::int64_t group_memory_mb);
@@ -119,7 +103,6 @@ class ChildProcess {
   const ProcessEnding& wait();
 
  private:
-  ChildProcess(int output, std::unique_ptr<MemoryGroup> group, const std::function<void()>& function);
   ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group);
   void watch();
 

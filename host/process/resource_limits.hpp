@@ -6,12 +6,6 @@
 
 namespace dmrp::host {
 
-struct ProcessLimits {
-  std::int64_t memory_mb = 0;  // of all in a memory group, of data where there can be none; 0: no limit
-  bool processes = false;      // plugins may start processes
-  std::int64_t file_mb = 0;    // of a file that it writes; 0: the box's limit
-};
-
 // Limits the data of this process to `memory_mb` (0: no limit; never under sanitizers): memory that it can write to and
 // shares with nobody, touched or not. Reserved address space does not count. Disables core dumps. A lower limit that is
 // already set stays.

@@ -2,6 +2,7 @@
 #include "host/results/database.hpp"
 
 #include <dmrp/descriptor.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -16,7 +17,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t schema_version = 3;
+constexpr std::int64_t schema_version = 4;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE trial(
@@ -32,7 +33,10 @@ CREATE TABLE trial(
   repeatable INTEGER NOT NULL CHECK (repeatable IN (0, 1)),
   sim_time_s REAL NOT NULL,
   wall_time_s REAL NOT NULL,
-  task TEXT NOT NULL DEFAULT ''
+  task TEXT NOT NULL DEFAULT '',
+  plan_sha256 TEXT NOT NULL DEFAULT '',
+  trace_sha256 TEXT NOT NULL DEFAULT '',
+  row_sha256 TEXT NOT NULL DEFAULT ''
 );
 CREATE TABLE metric(
   name TEXT PRIMARY KEY,
@@ -110,7 +114,13 @@ ALTER TABLE event ADD COLUMN y_m REAL;
 // Version 2 had no task of a trial.
 constexpr const char* upgrade_from_version_2 = R"sql(
 ALTER TABLE trial ADD COLUMN task TEXT NOT NULL DEFAULT '';
-PRAGMA user_version = 3;
+)sql";
+// Version 3 had no digests.
+constexpr const char* upgrade_from_version_3 = R"sql(
+ALTER TABLE trial ADD COLUMN plan_sha256 TEXT NOT NULL DEFAULT '';
+ALTER TABLE trial ADD COLUMN trace_sha256 TEXT NOT NULL DEFAULT '';
+ALTER TABLE trial ADD COLUMN row_sha256 TEXT NOT NULL DEFAULT '';
+PRAGMA user_version = 4;
 )sql";
 constexpr const char* event_columns_of_version_1 =
     "trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL";
@@ -143,12 +153,12 @@ std::int64_t nanoseconds(double s) {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();  // bound as NULL
 
 void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
-  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(as_signed(trial.id)).bind(trial.scenario).bind(std::int64_t{trial.robots});
   insert.bind(trial.global_planner).bind(trial.local_controller).bind(trial.pedestrian_model);
   insert.bind(std::int64_t{trial.repetition}).bind(as_signed(trial.seed));
   insert.bind(trial.outcome).bind(std::int64_t{trial.repeatable}).bind(trial.sim_time_s).bind(trial.wall_time_s);
-  insert.bind(trial.task).run();
+  insert.bind(trial.task).bind(trial.plan_sha256).bind(trial.trace_sha256).bind(row_sha256(trial)).run();
 }
 
 void write_swept(const SqliteConnection& connection, const TrialRecord& trial) {
@@ -208,12 +218,15 @@ std::int64_t version_of(const SqliteConnection& connection) {
   return pragma.step() ? pragma.column_integer(0) : 0;
 }
 
-std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
-  const char* const task = version_of(connection) < 3 ? "''" : "task";
+// `sha256s`: of each row as it was written; empty in results of earlier hosts.
+std::vector<TrialRecord> read_trials(const SqliteConnection& connection, std::vector<std::string>& sha256s) {
+  const std::int64_t version = version_of(connection);
+  const std::string later = std::string(version < 3 ? "''" : "task") +
+                            (version < 4 ? ", '', '', ''" : ", plan_sha256, trace_sha256, row_sha256");
   SqliteStatement select(connection,
                          std::string("SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, "
                                      "repetition, seed, outcome, repeatable, sim_time_s, wall_time_s, ") +
-                             task + " FROM trial ORDER BY id");
+                             later + " FROM trial ORDER BY id");
   std::vector<TrialRecord> trials;
   while (select.step()) {
     TrialRecord& trial = trials.emplace_back();
@@ -230,6 +243,9 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection) {
     trial.sim_time_s = select.column_number(10);
     trial.wall_time_s = select.column_number(11);
     trial.task = select.column_text(12);
+    trial.plan_sha256 = select.column_text(13);
+    trial.trace_sha256 = select.column_text(14);
+    sha256s.push_back(select.column_text(15));
   }
   return trials;
 }
@@ -309,9 +325,9 @@ SqliteStatement select_events(const SqliteConnection& connection, const std::str
                              " FROM event " + rest);
 }
 
-// Without events.
-std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
-  std::vector<TrialRecord> trials = read_trials(connection);
+// Without events. `sha256s`: as of read_trials().
+std::vector<TrialRecord> read_unchecked(const SqliteConnection& connection, std::vector<std::string>& sha256s) {
+  std::vector<TrialRecord> trials = read_trials(connection, sha256s);
   const auto select = [&](const char* sql) { return SqliteStatement(connection, sql); };
   read_rows(
       connection,
@@ -328,6 +344,29 @@ std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
     read_rows(connection, select("SELECT trial_id, plugin, reason FROM timing ORDER BY trial_id, rowid"), trials,
               take_timing);
   return trials;
+}
+
+// Without events.
+std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
+  std::vector<std::string> sha256s;
+  std::vector<TrialRecord> trials = read_unchecked(connection, sha256s);
+  const bool has_digests = version_of(connection) >= 4;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (has_digests && row_sha256(trials[i]) != sha256s[i])
+      throw SqliteError(
+          fmt::format("{}: trial {} has other values than the run has written: it was changed after the run",
+                      connection.file(), trials[i].id));
+  return trials;
+}
+
+// Of rows that have none, as they are.
+void write_digests(const SqliteConnection& connection) {
+  std::vector<std::string> none;
+  for (const TrialRecord& trial : read_unchecked(connection, none))
+    SqliteStatement(connection, "UPDATE trial SET row_sha256 = ? WHERE id = ?")
+        .bind(row_sha256(trial))
+        .bind(as_signed(trial.id))
+        .run();
 }
 
 // What the host reads is plain tables: something else under their names could answer without end, and a trigger could
@@ -388,8 +427,10 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   database.connection_.execute("PRAGMA journal_mode = WAL");
   if (const std::int64_t version = version_of(database.connection_); version < schema_version) {
     SqliteTransaction transaction(database.connection_);
-    if (version == 1) database.connection_.execute(upgrade_from_version_1);
-    database.connection_.execute(upgrade_from_version_2);
+    if (version < 2) database.connection_.execute(upgrade_from_version_1);
+    if (version < 3) database.connection_.execute(upgrade_from_version_2);
+    database.connection_.execute(upgrade_from_version_3);
+    write_digests(database.connection_);
     transaction.commit();
   }
   database.connection_.execute(swept_schema);

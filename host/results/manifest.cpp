@@ -106,8 +106,7 @@ Manifest parse(const Json& json) {
   manifest.experiment.shard.count = 0;
   if (json.contains("experiment")) manifest.experiment = parse_experiment(json.at("experiment"));
   if (const auto limits = json.find("plugin_limits"); limits != json.end())
-    manifest.plugin_limits = {limits->at("box"), limits->at("memory"), limits->at("processes"),
-                              limits->at("plugins_with_processes")};
+    manifest.plugin_limits = {limits->at("box"), limits->at("memory"), limits->at("plugins_with_processes")};
   manifest.left_out = json.value("left_out", manifest.left_out);
   const Json& machine = json.at("machine");
   machine.at("libc").get_to(manifest.machine.libc);
@@ -215,10 +214,8 @@ std::string to_json_text(const Manifest& manifest) {
   json["started_at"] = manifest.started_at;
   json["experiment"] = to_json(manifest.experiment);
   const PluginLimits& limits = manifest.plugin_limits;
-  json["plugin_limits"] = {{"box", limits.box},
-                           {"memory", limits.memory},
-                           {"processes", limits.processes},
-                           {"plugins_with_processes", limits.with_processes}};
+  json["plugin_limits"] = {
+      {"box", limits.box}, {"memory", limits.memory}, {"plugins_with_processes", limits.with_processes}};
   json["machine"] = {{"libc", manifest.machine.libc},
                      {"cpu_level", manifest.machine.cpu_level},
                      {"cpu_features", manifest.machine.cpu_features},

@@ -67,10 +67,9 @@ using Identity = std::map<std::string, std::string>;
 
 // What plugins could do on this machine.
 struct PluginLimits {
-  std::string box;                            // "sandbox", "box" or "none"
+  std::string box;                            // "namespaces", "calls" or "none", as box::kind()
   std::string memory;                         // what holds memory_mb
-  bool processes = false;                     // plugins that declare it could start processes
-  std::vector<std::string> with_processes{};  // those of the experiment that declare it
+  std::vector<std::string> with_processes{};  // plugins of the experiment that may start processes
 };
 
 // A reason for which trials are not repeatable.

@@ -3,10 +3,16 @@
 
 #include <fmt/format.h>
 
+#include "host/files/sha256.hpp"
+
 namespace dmrp::host {
 
 std::filesystem::path trace_path(const std::filesystem::path& run_directory, std::uint64_t trial) {
   return run_directory / "traces" / fmt::format("trial_{:06}.mcap", trial);
+}
+
+bool is_trace_of(const TrialRecord& trial, const std::filesystem::path& file) {
+  return trial.trace_sha256.empty() || sha256_of_file(file) == trial.trace_sha256;
 }
 
 }  // namespace dmrp::host

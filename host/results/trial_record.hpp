@@ -90,6 +90,8 @@ struct TrialRecord {
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
   std::string task{};  // a hash of the robots' starts and goals; empty after a fault, and in results of earlier hosts
+  std::string plan_sha256{};   // of the first plan's paths; empty if there is none, and in results of earlier hosts
+  std::string trace_sha256{};  // of the recorded file; likewise
   std::vector<SweptValue> swept{};
   std::vector<MetricValue> values;
   std::vector<MetricEvent> events;
@@ -98,6 +100,10 @@ struct TrialRecord {
 
 // How the place of a trial in its experiment differs from what its row says, in one line; "" if it does not.
 std::string misplacement(const TrialRecord& row, const TrialRecord& place);
+
+// SHA-256, hexadecimal, of what the row says, with its values, but without events, faults and reasons of timing. Equal for a
+// record and the same one read from a database.
+std::string row_sha256(const TrialRecord& row);
 
 // The columns of all swept values of trials or summaries, in order of appearance.
 template <class Swept>

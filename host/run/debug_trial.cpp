@@ -25,7 +25,7 @@ namespace dmrp::host {
 namespace {
 
 // In this process: a debugger sees one process, which loads each library once.
-Probe load_here(const std::filesystem::path& file) {
+Probe load_here(const std::filesystem::path& file, const VisiblePaths&) {
   const Library library(file);
   return {library.plugins(), library.warnings(), library.objects(), ""};
 }

@@ -40,7 +40,6 @@ PluginLimits limits_of(const Experiment& experiment) {
       if (use.info.has_flag(DMRP_FLAG_PROCESSES)) with_processes.insert(use.info.id);
   return {box::kind(),
           watched ? "resident memory, watched" : memory_limit_kind(limits.memory_mb),
-          limits.processes,
           {with_processes.begin(), with_processes.end()}};
 }
 

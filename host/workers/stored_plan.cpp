@@ -166,6 +166,11 @@ StoredPlan StoredPlans::read(const std::string& name) const {
   return plan;
 }
 
+void StoredPlans::check_paths(const std::string& name, const StoredPlan& call) const {
+  if (!call.fault && sha256_of_file(csv_file(name)) != call.paths_sha256)
+    throw InputError(csv_file(name).string() + ": was changed after the planner was asked");
+}
+
 void StoredPlans::write_call(const std::string& name, StoredPlan plan) const {
   fs::create_directories(folder_);
   if (!plan.fault) plan.paths_sha256 = sha256_of_file(csv_file(name));
@@ -174,6 +179,7 @@ void StoredPlans::write_call(const std::string& name, StoredPlan plan) const {
 
 void StoredPlans::copy(const StoredPlans& from, const std::string& name) const {
   if (has(name) || !from.has(name)) return;
+  from.check_paths(name, from.read_call(name));
   fs::create_directories(folder_);
   if (fs::exists(from.csv_file(name))) fs::copy_file(from.csv_file(name), csv_file(name));
   fs::copy_file(from.json_file(name), json_file(name));

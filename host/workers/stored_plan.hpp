@@ -50,10 +50,13 @@ class StoredPlans {
   StoredPlan read(const std::string& name) const;
   StoredPlan read_call(const std::string& name) const;
 
+  // Throws InputError if the paths are not those that the call gave.
+  void check_paths(const std::string& name, const StoredPlan& call) const;
+
   // Writes the JSON file; the CSV file, if there is one, is there already.
   void write_call(const std::string& name, StoredPlan plan) const;
 
-  // Copies the files of a plan from another run, unless it is here already or not there.
+  // Copies the files of a plan from another run, unless it is here already or not there. Throws InputError.
   void copy(const StoredPlans& from, const std::string& name) const;
 
   // So that the planners are asked again.

@@ -17,6 +17,7 @@
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/open_log.hpp"
+#include "host/files/sha256.hpp"
 #include "host/files/try_to_write.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/stop_signals.hpp"
@@ -150,7 +151,10 @@ class Supervisor {
       const std::string plan = plan_of(*number);
       if (!plans_.has(plan)) return trial;
       StoredPlan stored = plans_.read_call(plan);
-      if (!stored.fault) return trial;
+      if (!stored.fault) {
+        plans_.check_paths(plan, stored);
+        return trial;
+      }
       trial.end_without_plan(std::move(stored));
       fs::remove(stored_trace(*number));  // of an earlier attempt
       end_trial(trial.take_record());
@@ -326,11 +330,20 @@ class Supervisor {
                         slot.trials_begun > 1);
     }
     TrialRecord record = slot.trial->take_record();
+    add_digests(record);
     record.wall_time_s = static_cast<double>(monotonic_ns() - slot.trial->started_ns) / static_cast<double>(second_ns);
     slot.trial.reset();
     slot.last_trial = record.id;
     end_planning(record);
     end_trial(std::move(record));
+  }
+
+  // So that readers know whether plan and trace are those of the row.
+  void add_digests(TrialRecord& record) const {
+    if (const std::string plan = plan_of(record.id); !plan.empty() && plans_.has(plan))
+      record.plan_sha256 = plans_.read_call(plan).paths_sha256;
+    if (const fs::path trace = stored_trace(record.id); experiment_.traces != RecordTraces::none && fs::exists(trace))
+      record.trace_sha256 = sha256_of_file(trace);
   }
 
   void end_trial(TrialRecord&& record) {

@@ -79,7 +79,6 @@ GuestLimits guest_limits(const Experiment& experiment, const WorkerTask& task) {
   limits.memory_mb = experiment.limits.memory_mb;
   limits.counts_resident = counts_resident_memory(experiment);
   limits.data_mb = MemoryGroup::available() || limits.counts_resident ? 0 : limits.memory_mb;
-  limits.processes = experiment.limits.processes;
   limits.trial_wall_time_s = experiment.limits.trial_wall_time_s;
   limits.sharers = task.jobs;
   return limits;
@@ -376,7 +375,7 @@ class Worker {
 
 // As the supervisor has probed them.
 PluginSource source_of(const nlohmann::json& setup) {
-  return [setup](const std::filesystem::path& file) -> Probe {
+  return [setup](const std::filesystem::path& file, const VisiblePaths&) -> Probe {
     const auto found = setup.at("libraries").find(file.string());
     if (found == setup.at("libraries").end()) return {{}, {}, {}, "the supervisor has left it out"};
     return {found->at("plugins").get<std::vector<PluginInfo>>(), {}, found->at("objects"), ""};

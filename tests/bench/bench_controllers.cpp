@@ -92,7 +92,7 @@ std::string experiment_text(const Options& options, const std::string& controlle
 host::Experiment load(const std::string& text) {
   const fs::path file = fs::temp_directory_path() / fmt::format("bench_controllers_{}.toml", getpid());
   std::ofstream(file) << text;
-  const auto read_descriptors = [](const fs::path& library_file) {
+  const auto read_descriptors = [](const fs::path& library_file, const host::VisiblePaths&) {
     const host::Library library(library_file);
     return host::Probe{library.plugins(), library.warnings(), library.objects(), ""};
   };

@@ -84,7 +84,7 @@ class Drive {
   std::vector<host::TrialPlugins::DrivenRobot> driven_;
 };
 
-host::Probe descriptors_of(const std::filesystem::path& file) {
+host::Probe descriptors_of(const std::filesystem::path& file, const host::VisiblePaths&) {
   const host::Library library(file);
   return {library.plugins(), library.warnings(), library.objects(), ""};
 }

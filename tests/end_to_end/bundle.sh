@@ -53,6 +53,18 @@ expect_status 0 "$host" verify "$bundle" --trials 3
 grep -q "3 trials run again, equal to the bit" "$scratch/stdout" || fail "$(cat "$scratch/stdout")"
 [[ ! -s $scratch/stderr ]] || fail "nothing is to be said: $(cat "$scratch/stderr")"
 [[ $(echo "$bundle"/results*) == "$bundle/results.sqlite" ]] || fail "reading left $(echo "$bundle"/results*)"
+# its plugins are somebody else's
+without_namespaces=(env "DMRP_VIEW=namespaces: none in this test" "$host")
+if DMRP_VIEW="namespaces: none in this test" "$host" "$bundle/experiment.toml" --trials 1 --quiet --out "$scratch/boxless" >/dev/null 2>&1; then
+  echo "not tested: sanitizers exclude the box"
+else
+  for command in verify run; do
+    [[ $command == run ]] && target=$bundle/experiment.toml || target=$bundle
+    expect_refusal "its plugins would see your files, as this kernel gives them no namespaces .*: --trust runs them" \
+      "${without_namespaces[@]}" $command "$target" --trials 1
+  done
+  expect_status 0 "${without_namespaces[@]}" verify "$bundle" --trials 1 --trust
+fi
 expect_refusal "results.sqlite" "$host" verify "$scratch/elsewhere_unrun/moved"
 
 # a bundle of results is a run directory

@@ -13,12 +13,12 @@ grep -Eq "^32 trials in both$" "$scratch/stdout" || fail "not all trials are mat
 grep -Eq "success +32 .* 0.000 \[0.000, 0.000\] +=" "$scratch/stdout" || fail "equal runs differ: $(cat "$scratch/stdout")"
 
 # fewer arrive in every trial
-query "$after" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
+forge "$after" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
 expect_status 1 "$host" compare "$before" "$after" --fail-if "success < -0.02" --fail-if "success > 0.02"
 grep -q "success < -0.02: YES" "$scratch/stdout" || fail "the condition is not named"
 expect_status 0 "$host" compare "$after" "$before" --fail-if "success < -0.02"
 # no interval can lie on one side of what it straddles
-query "$before" "UPDATE value SET value = 0.5 WHERE metric = 'success' AND subject_kind = 'system'"
+forge "$before" "UPDATE value SET value = 0.5 WHERE metric = 'success' AND subject_kind = 'system'"
 query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE trial.id = trial_id) WHERE
   metric = 'success' AND subject_kind = 'system'"
 expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
@@ -26,7 +26,7 @@ expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 # of three seeds nothing is estimated
 expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 3 --out "$scratch/few"
 cp -r "$scratch/few" "$scratch/changed"
-query "$scratch/changed" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
+forge "$scratch/changed" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
 expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric success
 grep -Eq "success +12 .* 0.100 +too few \(3 seeds\) +–$" "$scratch/stdout" ||
   fail "a difference of three seeds is printed: $(cat "$scratch/stdout")"

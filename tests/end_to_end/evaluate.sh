@@ -71,8 +71,13 @@ evaluate 1 --metric test.metric.recovers --plugin "$faults" --trial 1 --trial 2
 expect_line "^trial 1: test.metric.recovers: begin\(\): thrown on purpose"
 [[ $(cut -d, -f1,2 "$scratch/stdout" | tail -1) == 2,test_recovers ]] || fail "the next trial should be measured"
 
-# traces that are truncated, damaged or missing are reported, and the others evaluated
+# traces that are truncated, damaged or missing are reported, and the others evaluated, also where no digest tells
 cp -r "$run" "$scratch/damaged"
+cp "$(printf '%s/traces/trial_%06d.mcap' "$run" 3)" "$scratch/damaged/traces/trial_000001.mcap"
+expect_status 1 "$host" evaluate "$scratch/damaged" --csv "$some"
+expect_line '^trial 1: .*trial_000001.mcap was changed after the run'
+cp "$run/traces/trial_000001.mcap" "$scratch/damaged/traces"
+forge "$scratch/damaged" ""
 trace() { printf '%s/damaged/traces/trial_%06d.mcap' "$scratch" "$1"; }
 head -c 4000 "$(trace 1)" >"$scratch/short" && mv "$scratch/short" "$(trace 1)"
 printf 'no trace' >"$(trace 2)"

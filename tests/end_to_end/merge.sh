@@ -42,7 +42,7 @@ run --resume --out "$scratch/part"
 [[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
 cp -r "$scratch/a" "$scratch/relabelled"
-query "$scratch/relabelled" "UPDATE trial SET local_controller = 'better' WHERE id = 0"
+forge "$scratch/relabelled" "UPDATE trial SET local_controller = 'better' WHERE id = 0"
 expect_refusal "$scratch/b: trial 4 does not fit trial 0, one of them was changed after its run: its controller is" \
   "$scratch/none" "$scratch/relabelled" "$scratch/b" "$scratch/c"
 query "$scratch/relabelled" "UPDATE trial SET local_controller = (SELECT local_controller FROM trial WHERE id = 6), seed = 1

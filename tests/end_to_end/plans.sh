@@ -83,8 +83,13 @@ sed -i 's/"paths_sha256": "./&x/' "part_1/plans/$plan"
 expect_status 2 "$host" merge none part_0 part_1 part_2
 grep -q "part_[12]: plan ${plan%.json} is another than that of part_[01]" stderr || fail "$(cat stderr)"
 
-# a mistake in a stored plan is named
+# a stored plan that was changed is named; if its digest was changed, too, then the mistake in it
 sed -i '3s/,[^,]*,/,late,/' "shared_1/plans/${plan%.json}.csv"
+query shared_1 "PRAGMA foreign_keys = ON; DELETE FROM trial"
+expect_status 2 "$host" shared.toml --quiet --resume --out shared_1
+grep -q "${plan%.json}.csv: was changed after the planner was asked" stderr || fail "$(cat stderr)"
+digest=$(sha256sum <"shared_1/plans/${plan%.json}.csv" | cut -d ' ' -f 1)
+sed -i "s/\"paths_sha256\": \"[0-9a-f]*/\"paths_sha256\": \"$digest/" "shared_1/plans/$plan"
 query shared_1 "PRAGMA foreign_keys = ON; DELETE FROM trial"
 expect_status 1 "$host" shared.toml --quiet --resume --out shared_1
 query shared_1 "SELECT detail FROM fault" | grep -q "${plan%.json}.csv:3:3: t_ns must be a whole number, not 'late'" ||

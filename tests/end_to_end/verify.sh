@@ -19,7 +19,17 @@ expect_difference() {  # PATTERN RUN_DIR
   grep -Eq -- "$1" stdout || fail "'$(cat stdout)' does not match '$1'"
 }
 cp -r run changed
-query changed "UPDATE value SET value = 123.25 WHERE trial_id = 5 AND metric = 'path_length' AND subject_kind = 'system'"
+change="UPDATE value SET value = 123.25 WHERE trial_id = 5 AND metric = 'path_length' AND subject_kind = 'system'"
+query changed "$change"
+for command in verify report "compare run"; do
+  # shellcheck disable=SC2086  # two words
+  expect_status 2 "$host" $command changed
+  grep -q "changed/results.sqlite: trial 5 has other values than the run has written: it was changed after the run" stderr ||
+    fail "$command: $(cat stderr)"
+done
+rm -r changed
+cp -r run changed
+forge changed "$change"
 expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' changed
 [[ $(wc -l <stdout) == 2 ]] || fail "one difference, one line: $(cat stdout)"
 cp run/traces/trial_000002.mcap changed/traces/trial_000007.mcap
@@ -27,8 +37,7 @@ expect_difference "^trial 7: the trace's digest is [0-9a-f]{64}, was [0-9a-f]{64
 
 # the rules are those of the experiment, not of the file that is judged
 cp -r run forged
-query forged "UPDATE value SET value = 123.25 WHERE trial_id = 5 AND metric = 'path_length' AND subject_kind = 'system';
-  UPDATE metric SET wall_clock = 1"
+forge forged "$change; UPDATE metric SET wall_clock = 1"
 expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' forged
 query forged "DELETE FROM trial WHERE id = 3; DELETE FROM value WHERE trial_id = 3; DELETE FROM event WHERE trial_id = 3"
 expect_difference '^1 of 8 trials are missing$' forged
@@ -46,6 +55,23 @@ query imposter "ALTER TABLE value RENAME TO kept; CREATE VIEW value AS WITH RECU
   SELECT i FROM n) SELECT 0 AS trial_id, 'x' AS metric, 'system' AS subject_kind, i AS subject, 0 AS coordinate, 0 AS value FROM n"
 expect_status 2 timeout 60 "$host" report imposter
 grep -q "has a view 'value' that no dmrp-host makes" stderr || fail "$(cat stderr)"
+# a plan or a trace that is not the row's
+cp -r run swapped
+cp run/traces/trial_000002.mcap swapped/traces/trial_000007.mcap
+expect_status 2 "$host" evaluate swapped --trial 7
+grep -q "trial 7: swapped/traces/trial_000007.mcap was changed after the run" stdout stderr || fail "$(cat stdout stderr)"
+plan=swapped/plans/scenario_00_planner_00_repetition_000000
+sed -i '2s/,[^,]*$/,1/' $plan.csv
+expect_status 2 "$host" verify swapped --trials 8 --jobs 1
+grep -q "$plan.csv: was changed after the planner was asked" stderr || fail "$(cat stderr)"
+sed -i "s/\"paths_sha256\": \"[0-9a-f]*/\"paths_sha256\": \"$(sha256sum <$plan.csv | cut -d ' ' -f 1)/" $plan.json
+expect_status 2 "$host" "$here/crossing.toml" --trials 3 --quiet --resume --out swapped
+grep -q "trial [0-9]*: had another plan than plans/scenario_00_planner_00_repetition_000000.csv" stderr || fail "$(cat stderr)"
+cp -r run relabelled
+forge relabelled "UPDATE trial SET local_controller = 'better' WHERE id = 2"
+expect_status 2 "$host" "$here/crossing.toml" --trials 3 --quiet --resume --out relabelled
+grep -q "relabelled: trial 2: its controller is 'better', in this experiment '" stderr || fail "$(cat stderr)"
+
 sed -i 's/^seed .*/seed = 8/' changed/effective.toml
 expect_difference '^experiment.seed is 8, was 7$' changed
 rm changed/effective.toml

@@ -12,13 +12,16 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "host/guests/inside/guest_runtime.hpp"
 #include "host/guests/inside/log_line.hpp"
+#include "host/plugins/calls/own_process.hpp"
+#include "host/plugins/elf_file.hpp"
 #include "host/process/box.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/orphans.hpp"
-#include "host/process/own_process.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/process/sanitized.hpp"
 #include "host/results/result_json.hpp"
 
@@ -135,13 +138,29 @@ void serve(const GuestSetup& setup, const GuestMemory& memory) {
 
 }  // namespace
 
-std::vector<std::string> arguments_of(const GuestSetup& setup) {
-  std::vector<std::string> arguments = {setup.written, setup.library.string(), setup.scratch.string()};
+VisiblePaths what_shows(const LibraryUse& library) {
+  VisiblePaths visible;
+  std::set<std::filesystem::path> folders;
+  const VisiblePaths files = files_of_library(library.file);
+  for (const std::filesystem::path& file : files)
+    if (folders.insert(file.parent_path()).second)  // host.h: weights lie beside it
+      visible.push_back(file.parent_path() / view::all_files);
+  visible.insert(visible.end(), files.begin(), files.end());
+  visible.insert(visible.end(), library.visible.begin(), library.visible.end());
+  return visible;
+}
+
+GuestOrder order_of(const GuestSetup& setup) {
+  GuestOrder order = {GuestOrder::Program::library,
+                      {setup.written, setup.library.string(), setup.scratch.string()},
+                      setup.visible,
+                      {setup.memory.judge_descriptor, setup.memory.guest_descriptor}};
   for (const std::int64_t number :
        {setup.data_mb, std::int64_t{setup.processes}, std::int64_t{setup.plain_log_level},
         static_cast<std::int64_t>(setup.memory.address), static_cast<std::int64_t>(setup.memory.part_bytes)})
-    arguments.push_back(std::to_string(number));
-  return arguments;
+    order.arguments.push_back(std::to_string(number));
+  if (setup.spool >= 0) order.descriptors.push_back(setup.spool);
+  return order;
 }
 
 int run_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors) {
@@ -163,7 +182,7 @@ int run_guest(const std::vector<std::string>& arguments, const std::vector<int>&
     return address_taken_exit;
   }
   if (setup.spool >= 0) fcntl(setup.spool, F_SETFD, FD_CLOEXEC);
-  if (!setup.scratch.empty()) setenv("TMPDIR", setup.scratch.c_str(), 1);  // temporary files of plugins go there, too
+  if (!setup.scratch.empty()) setenv("TMPDIR", setup.scratch.c_str(), 1);
   try {
     adopt_orphans();
     own_process::watch();

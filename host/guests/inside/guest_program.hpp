@@ -7,25 +7,39 @@
 #include <vector>
 
 #include "host/guests/exchange/guest_memory.hpp"
+#include "host/plugins/plugin_use.hpp"
 
 namespace dmrp::host {
+
+// What the nursery is told.
+struct GuestOrder {
+  enum class Program { library, check_case } program;
+  std::vector<std::string> arguments;
+  VisiblePaths visible;          // in the guest's view
+  std::vector<int> descriptors;  // three at most
+};
+
+// What the process of a guest does, with the descriptors as it has them. Returns the exit status.
+using GuestProgram = int (*)(const std::vector<std::string>& arguments, const std::vector<int>& descriptors);
 
 struct GuestSetup {
   std::string written;  // how the experiment names the library
   std::filesystem::path library;
-  std::filesystem::path scratch;      // where it may write
+  std::filesystem::path scratch;      // for temporary files
   std::int64_t data_mb = 0;           // a limit on its data; 0: none
   bool processes = false;             // plugins may start processes
   std::int32_t plain_log_level = -1;  // of GuestLimits
+  VisiblePaths visible{};             // in its view
   int spool = -1;                     // of a trace that is too large for memory
   GuestMemory::Place memory{};
 };
 
-// As texts, without the descriptors.
-std::vector<std::string> arguments_of(const GuestSetup& setup);
+GuestOrder order_of(const GuestSetup& setup);
 
-// Runs until the judge ends it. Returns the exit status. `arguments`: all of arguments_of(); `descriptors`: of the judge's
-// part of the memory, the guest's, and the spool, if there is one.
+// The library, what it needs, and what the experiment shows it.
+VisiblePaths what_shows(const LibraryUse& library);
+
+// The program of a library, which runs until the judge ends it.
 int run_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors);
 
 // The exit status of a guest whose memory cannot have the addresses of its judge's: another one can.

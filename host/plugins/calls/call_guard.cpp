@@ -9,7 +9,7 @@
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/calls/fp_control.hpp"
-#include "host/process/own_process.hpp"
+#include "host/plugins/calls/own_process.hpp"
 #include "host/program/monotonic_time.hpp"
 
 namespace dmrp::host {
@@ -114,7 +114,6 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
   note_.robot.store(site.robot, std::memory_order_relaxed);
   note_.limit_ns.store(longest_ns(budget_ns), std::memory_order_relaxed);
   control_bits_ = fp_control();
-  copies_before_ = own_process::copies_made();
   asks_before_ = asks_;
   start_ns_ = monotonic_ns();
   deadline_ns_ = start_ns_ + budget_ns;
@@ -138,8 +137,6 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
     set_fp_control(control_bits_);
     throw PluginFault(fault_kind::abi_breach, site, "changed the floating-point control bits");
   }
-  if (!processes_allowed_ && own_process::copies_made() != copies_before_)
-    throw PluginFault(fault_kind::abi_breach, site, "copied the process with fork()", true);
   if (!processes_allowed_ && is_long && own_process::has_children())
     throw PluginFault(fault_kind::abi_breach, site, "left a process behind", true);
   if (threw) throw PluginFault(fault_kind::abi_breach, site, "let a C++ exception out");

@@ -96,7 +96,6 @@ class CallGuard {
   std::atomic<const dmrp_host*> caller_ = nullptr;  // of the call that runs
   std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
-  std::uint64_t copies_before_ = 0;
   bool processes_allowed_ = false;
   std::atomic<bool> stopped_ = false;  // the call that runs
   std::atomic<std::int64_t> asks_ = 0;

@@ -32,6 +32,7 @@ class ReplayPacker {
     std::error_code no_file;
     const std::uintmax_t trace_bytes = fs::file_size(file, no_file);
     if (no_file) return "no trace was recorded";
+    if (!is_trace_of(trial, file)) return "the trace was changed after the run";
     const std::string over_budget = fmt::format("the budget of {} MB for replays is used up", megabytes_);
     // skips the encoding if even the best compression so far would exceed the budget
     if (smallest_share_ && *smallest_share_ * static_cast<double>(trace_bytes) > static_cast<double>(budget_))

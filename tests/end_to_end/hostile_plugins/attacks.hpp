@@ -7,6 +7,7 @@
 #include <fenv.h>
 #include <linux/sockios.h>
 #include <linux/userfaultfd.h>
+#include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
@@ -35,13 +36,16 @@
 namespace dmrp::test {
 
 inline std::vector<int> open_descriptors() {
+  constexpr int most = 1024;
   std::vector<int> numbers;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
-    numbers.push_back(std::stoi(entry.path().filename()));
+  for (int number = 0; number < most; ++number)
+    if (fcntl(number, F_GETFD) >= 0) numbers.push_back(number);
   return numbers;
 }
 
 inline std::string target_of(int descriptor) {
+  struct stat file {};
+  if (fstat(descriptor, &file) == 0 && S_ISFIFO(file.st_mode)) return "pipe:";
   std::error_code ignored;
   return std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), ignored);
 }
@@ -58,10 +62,11 @@ inline void close_those(const std::string& part_of_target) {
     if (descriptor > 2 && target_of(descriptor).find(part_of_target) != std::string::npos) close(descriptor);
 }
 
-// Workers of the same run.
+// Workers of the same run; where there is no /proc, the first process.
 inline std::vector<int> siblings() {
   std::vector<int> numbers;
   const std::string parent = std::to_string(getppid());
+  if (!std::filesystem::exists("/proc/self")) return {1};
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const int process = std::atoi(entry.path().filename().c_str());
     const std::string status = "/proc/" + std::to_string(process) + "/stat";
@@ -103,12 +108,62 @@ inline bool has_rings_or_segments() {
   char parameters[256] = {};
   return syscall(SYS_io_uring_setup, 8, parameters) >= 0 || shmget(IPC_PRIVATE, 4096, 0600) >= 0 ||
          syscall(SYS_msgget, IPC_PRIVATE, 0600) >= 0 || syscall(SYS_semget, IPC_PRIVATE, 1, 0600) >= 0 ||
-         syscall(SYS_add_key, "user", "dmrp", "x", 1, -4) >= 0 || syscall(SYS_userfaultfd, UFFD_USER_MODE_ONLY) >= 0;
+         syscall(SYS_add_key, "user", "dmrp", "x", 1, -4) >= 0 || syscall(SYS_userfaultfd, UFFD_USER_MODE_ONLY) >= 0 ||
+         memfd_create("dmrp", 0) >= 0;
+}
+
+// Of the priority of a process that is none of the guest's own two.
+inline bool slows_others_down() {
+  constexpr int first_other = 3;
+  constexpr int most = 100'000;
+  for (int process = first_other; process < most; ++process)
+    if (setpriority(PRIO_PROCESS, static_cast<id_t>(process), 19) == 0) return true;
+  setpriority(PRIO_PGRP, 0, 19);
+  setpriority(PRIO_USER, getuid(), 19);
+  return false;
+}
+
+// A network has hosts that refuse a connection; here there is none.
+inline bool reaches_a_network() {
+  const int number = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in local{};
+  local.sin_family = AF_INET;
+  local.sin_port = htons(1);
+  local.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return connect(number, reinterpret_cast<const sockaddr*>(&local), sizeof(local)) == 0 || errno != ENETUNREACH;
+}
+
+// The folder of a test's files, where they can be seen.
+inline std::filesystem::path outside_folder() {
+  const char* const outside = std::getenv("DMRP_TEST_OUTSIDE");
+  return outside ? std::filesystem::path(outside).parent_path() : "/none";
+}
+
+inline bool reads_elsewhere() {
+  return std::filesystem::exists(outside_folder()) || std::filesystem::exists("/home") ||
+         std::filesystem::exists("/etc/passwd") || std::filesystem::exists("/proc/1");
+}
+
+// All that results lie in.
+inline void falsify_databases() {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(outside_folder(), ignored))
+    if (entry.path().filename().string().rfind("results.sqlite", 0) == 0)
+      std::ofstream(entry.path(), std::ios::in | std::ios::ate) << "falsified";
+}
+
+inline bool fills_the_disk() {
+  constexpr std::size_t size = 256u << 20;
+  std::ofstream file(std::filesystem::temp_directory_path() / "much", std::ios::binary);
+  file << std::string(size, 'x') << std::flush;
+  return file.good();
 }
 
 // The guests' folder is that of temporary files; the worker's is above it, and the run directory two levels above that.
 inline std::filesystem::path worker_folder() {
-  return std::filesystem::temp_directory_path().parent_path();
+  const std::filesystem::path folder = std::filesystem::temp_directory_path().parent_path();
+  // nothing else is deleted, whatever the host says
+  return folder.parent_path().filename() == "scratch" ? folder : "/none/scratch/none";
 }
 
 inline void delete_files(const std::string& of) {
@@ -122,7 +177,8 @@ inline void write_elsewhere() {
 }
 
 inline void replace_trace() {
-  for (const auto& entry : std::filesystem::directory_iterator(worker_folder())) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(worker_folder(), ignored)) {
     const std::filesystem::path trace = entry.path();
     std::filesystem::remove(trace);
     mkfifo(trace.c_str(), 0600);
@@ -134,6 +190,7 @@ inline void plant(const std::string& what) {
   namespace fs = std::filesystem;
   const fs::path scratch = worker_folder().parent_path();
   std::vector<fs::path> places;
+  if (!fs::exists(scratch)) return;
   for (const auto& entry : fs::directory_iterator(scratch)) {
     for (const char* const name : {"plan.csv", "samples"}) places.push_back(entry.path() / name);
     for (int trial = 0; trial < 10; ++trial)
@@ -212,7 +269,13 @@ inline void attack(const std::string& what) {
   if (what == "deletes traces") delete_files("run");
   if (what == "replaces its trace") replace_trace();
   if (what == "writes elsewhere") write_elsewhere();
-  if (what == "opens a socket" && socket(AF_INET, SOCK_STREAM, 0) >= 0) crash();
+  if (what == "reaches a network" && reaches_a_network()) crash();
+  if (what == "reads elsewhere" && reads_elsewhere()) crash();
+  if (what == "falsifies databases") falsify_databases();
+  if (what == "fills the disk" && fills_the_disk()) crash();
+  if (what == "slows others down" && slows_others_down()) crash();
+  if (what == "kills everything") kill(-1, SIGKILL);
+  if (what == "kills its group") kill(0, SIGKILL);
   if (what == "burns processors")
     for (int i = 0; i < 4; ++i)
       std::thread([] {

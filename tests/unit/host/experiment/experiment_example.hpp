@@ -141,7 +141,7 @@ inline std::vector<host::PluginInfo> fake_plugins() {
 
 // libfake.so has the plugins above; libtwin.so one of them too; libbad.so does not load, libsick.so not start; others
 // have none.
-inline host::Probe fake_probe(const std::filesystem::path& file) {
+inline host::Probe fake_probe(const std::filesystem::path& file, const host::VisiblePaths&) {
   const std::string name = file.filename().string();
   if (name == "libbad.so") throw std::runtime_error("not a dmrp v1 plugin");
   if (name == "libfake.so") return {fake_plugins()};

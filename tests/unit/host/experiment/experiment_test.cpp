@@ -90,6 +90,7 @@ planner_time_s = 1.5
 step_time_s = 0.25
 trial_wall_time_s = 100
 memory_mb = 0
+visible = ["table.csv", "/usr"]
 )";
 }
 
@@ -234,6 +235,7 @@ TEST_CASE("all settings arrive") {
   CHECK(e.limits.step_time_s == 0.25);
   CHECK(e.limits.trial_wall_time_s == 100.0);
   CHECK(e.limits.memory_mb == 0);
+  CHECK(e.limits.visible == VisiblePaths{folder.path() / "table.csv", "/usr"});
   // cells of 0.5 m for robots of 0.2 m: 2 sqrt(2) r = 0.566 m
   REQUIRE(e.warnings.size() == 1);
   CHECK(e.warnings[0] ==
@@ -515,9 +517,9 @@ TEST_CASE("what cannot be loaded is left out if the experiment says so") {
 
   // a source that loads into this process is not asked for a library that fails elsewhere
   std::vector<std::string> asked;
-  const auto source = [&](const std::filesystem::path& file) {
+  const auto source = [&](const std::filesystem::path& file, const VisiblePaths& visible) {
     asked.push_back(file.filename());
-    return fake_probe(file.filename() == "libfake.so" ? file : "libfake.so");
+    return fake_probe(file.filename() == "libfake.so" ? file : "libfake.so", visible);
   };
   CHECK(load_experiment("experiment.toml", 0, source, &fake_probe).left_out == experiment.left_out);
   CHECK(asked == std::vector<std::string>{"libfake.so"});

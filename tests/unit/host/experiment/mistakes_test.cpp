@@ -236,6 +236,9 @@ TEST_CASE("mistakes in an experiment's settings") {
        "20:10: 'traces' must be one of all, failed, none, not 'some' (did you mean "
        "'none'?)"},
       {"[limits]\nmemory_mb = -1", "20:13: 'memory_mb' must be at least 0, not -1"},
+      {"[limits]\nvisible = [\"nowhere\"]", "20:12: 'visible' names no file or folder: 'nowhere'"},
+      {"[limits]\nvisible = [\"/\"]", "20:12: 'visible' must not be '/' (plugins that see everything: --no-box)"},
+      {"[limits]\nvisible = [\"/tmp\"]", "20:12: 'visible' must not be '/tmp': plugins have their own"},
       {"[limits]\nplanner_time_s = 0", "20:18: 'planner_time_s' must be at least 0.001, not 0"},
   };
   for (const auto& [text, message] : mistakes) {
@@ -360,12 +363,13 @@ TEST_CASE("ordered execution needs conflict-free plans on cells") {
   const auto message = [](std::uint32_t connectivity, std::uint32_t flags) -> std::string {
     write_file("experiment.toml", std::string(experiment_text) + "[simulation]\nexecution = \"ordered\"\n");
     try {
-      dmrp::host::load_experiment("experiment.toml", 0, [&](const std::filesystem::path& file) {
-        dmrp::host::Probe probe = fake_probe(file);
-        probe.plugins.front().connectivity = connectivity;
-        probe.plugins.front().flags = flags;
-        return probe;
-      });
+      dmrp::host::load_experiment("experiment.toml", 0,
+                                  [&](const std::filesystem::path& file, const dmrp::host::VisiblePaths& visible) {
+                                    dmrp::host::Probe probe = fake_probe(file, visible);
+                                    probe.plugins.front().connectivity = connectivity;
+                                    probe.plugins.front().flags = flags;
+                                    return probe;
+                                  });
     } catch (const InputError& error) {
       return error.what();
     }
@@ -386,11 +390,12 @@ TEST_CASE("a plugin that needs what the host lacks is refused where it is used")
   const auto message = [](std::size_t plugin, const auto& change) -> std::string {
     write_file("experiment.toml", experiment_text);
     try {
-      dmrp::host::load_experiment("experiment.toml", 0, [&](const std::filesystem::path& file) {
-        dmrp::host::Probe probe = fake_probe(file);
-        change(probe.plugins.at(plugin));
-        return probe;
-      });
+      dmrp::host::load_experiment("experiment.toml", 0,
+                                  [&](const std::filesystem::path& file, const dmrp::host::VisiblePaths& visible) {
+                                    dmrp::host::Probe probe = fake_probe(file, visible);
+                                    change(probe.plugins.at(plugin));
+                                    return probe;
+                                  });
     } catch (const InputError& error) {
       return error.what();
     }

@@ -13,16 +13,28 @@
 
 #include "host/process/call_note.hpp"
 #include "host/process/line_channel.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/process/watchdog.hpp"
 
 using namespace dmrp::host;
 
 namespace {
 
-constexpr ProcessLimits no_limits;
+// A copy of this process, which runs `function`.
+std::unique_ptr<ChildProcess> copy_for(const std::function<void()>& function) {
+  const pid_t number = fork();
+  if (number != 0) return ChildProcess::adopt(number, 0);
+  be_child();
+  try {
+    function();
+  } catch (const std::bad_alloc&) {
+    _exit(out_of_memory_exit);
+  }
+  _exit(0);
+}
 
 ProcessEnding ending_of(const std::function<void()>& function) {
-  return ChildProcess::fork(no_limits, function).wait();
+  return copy_for(function)->wait();
 }
 
 }  // namespace
@@ -52,15 +64,15 @@ TEST_CASE("the end of a child is explained") {
 }
 
 TEST_CASE("a child that takes more processor time than it may is ended") {
-  ChildProcess child = ChildProcess::fork(no_limits, [] {
+  const auto child = copy_for([] {
     for (volatile bool forever = true; forever;) {
     }
   });
-  child.allow_cpu(0.1);
-  const ProcessEnding& ending = child.wait();
+  child->allow_cpu(0.1);
+  const ProcessEnding& ending = child->wait();
   CHECK(ending.signal == SIGXCPU);
   CHECK(ending.fault_kind() == std::string(fault_kind::hang));
-  child.allow_cpu(5.0);  // it has ended: nothing to allow
+  child->allow_cpu(5.0);  // it has ended: nothing to allow
   CHECK(ending.explain(400) == "took more than 0.1 s of processor time");
 }
 
@@ -76,9 +88,9 @@ TEST_CASE("a child that others keep from the processor is known to wait") {
     sched_setaffinity(0, sizeof(one), &one);
     for (volatile int turns = 0;;) turns = turns + 1;
   };
-  const ChildProcess one = ChildProcess::fork(no_limits, spin);
-  const ChildProcess other = ChildProcess::fork(no_limits, spin);
-  while (one.waited_for_processor_ns() < 20'000'000 || other.waited_for_processor_ns() < 20'000'000) usleep(10'000);
+  const auto one = copy_for(spin);
+  const auto other = copy_for(spin);
+  while (one->waited_for_processor_ns() < 20'000'000 || other->waited_for_processor_ns() < 20'000'000) usleep(10'000);
 }
 
 TEST_CASE("processes share the processors, each has one") {
@@ -87,16 +99,16 @@ TEST_CASE("processes share the processors, each has one") {
 }
 
 TEST_CASE("a child is killed, and waited for once") {
-  ChildProcess child = ChildProcess::fork(no_limits, [] { pause(); });
-  child.kill();
-  CHECK(child.wait().signal == SIGKILL);
-  child.kill();  // not another process that has its number now
-  CHECK(child.wait().signal == SIGKILL);
+  const auto child = copy_for([] { pause(); });
+  child->kill();
+  CHECK(child->wait().signal == SIGKILL);
+  child->kill();  // not another process that has its number now
+  CHECK(child->wait().signal == SIGKILL);
 }
 
 TEST_CASE("a child reads nothing and sends messages until it ends") {
   Pipe pipe = make_pipe();
-  ChildProcess child = ChildProcess::fork(no_limits, [&] {
+  const auto child = copy_for([&] {
     char byte;
     LineChannel channel(Descriptor(), std::move(pipe.write_end));
     channel.send({{"read", read(STDIN_FILENO, &byte, 1)}});
@@ -105,16 +117,16 @@ TEST_CASE("a child reads nothing and sends messages until it ends") {
   LineChannel channel(std::move(pipe.read_end), Descriptor());
   CHECK(channel.receive().value().at("read") == 0);
   CHECK_FALSE(channel.receive());
-  CHECK(child.wait().succeeded());
+  CHECK(child->wait().succeeded());
 }
 
 TEST_CASE("the parent sees the call that its child has noted") {
   const SharedCallNote note(make_call_note());
   CHECK_FALSE(note.read().inside);
-  ChildProcess::fork(no_limits, [&] {
+  copy_for([&] {
     note.note().function = {'p', 'l', 'a', 'n'};
     note.note().call_number = 1;
-  }).wait();
+  })->wait();
   CHECK(note.read().inside);
   CHECK(note.read().function == "plan");
 }
@@ -126,9 +138,7 @@ TEST_CASE("when memory is short, the kernel kills a child before its parent") {
     return found;
   };
   Pipe pipe = make_pipe();
-  ChildProcess child = ChildProcess::fork(no_limits, [&] {
-    LineChannel(Descriptor(), std::move(pipe.write_end)).send({{"score", score()}});
-  });
+  const auto child = copy_for([&] { LineChannel(Descriptor(), std::move(pipe.write_end)).send({{"score", score()}}); });
   pipe.write_end.close();
   LineChannel channel(std::move(pipe.read_end), Descriptor());
   const int of_child = channel.receive().value().at("score");
@@ -137,12 +147,12 @@ TEST_CASE("when memory is short, the kernel kills a child before its parent") {
 }
 
 TEST_CASE("a watchdog waits for the end of a child, or until it is late") {
-  ChildProcess sleeper = ChildProcess::fork(no_limits, [] { pause(); });
-  REQUIRE(sleeper.ended().is_open());
+  const auto sleeper = copy_for([] { pause(); });
+  REQUIRE(sleeper->ended().is_open());
   Watchdog watchdog;
   int asked = 0;
-  CHECK_FALSE(watchdog.wait(sleeper.ended().number(), [&] { return ++asked == 2; }));
+  CHECK_FALSE(watchdog.wait(sleeper->ended().number(), [&] { return ++asked == 2; }));
   CHECK(asked == 2);
-  sleeper.kill();
-  CHECK(watchdog.wait(sleeper.ended().number(), [] { return false; }));
+  sleeper->kill();
+  CHECK(watchdog.wait(sleeper->ended().number(), [] { return false; }));
 }

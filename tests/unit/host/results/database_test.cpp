@@ -187,6 +187,33 @@ TEST_CASE("trials read from the database equal the written ones bit by bit", "[r
   CHECK(metrics[5].wall_clock);
 }
 
+TEST_CASE("a row that was changed after the run is refused", "[results]") {
+  const ScratchFolder folder;
+  TrialRecord trial = full_trial(3);
+  trial.plan_sha256 = "aa";
+  trial.trace_sha256 = "bb";
+  for (const double odd : {-0.0, std::nan(""), 1e300})
+    trial.values.push_back({"cpu", DMRP_SUBJECT_SYSTEM, {}, {}, odd});
+  const auto path = folder / "results.sqlite";
+  {
+    ResultsDatabase database = ResultsDatabase::create(path, example_metrics());
+    database.write(trial);
+    database.write(full_trial(4));
+    CHECK(database.trials()[0].trace_sha256 == "bb");
+    database.finish();
+  }
+  for (const char* change :
+       {"UPDATE value SET value = value + 1 WHERE rowid = 1", "UPDATE trial SET seed = seed + 1 WHERE id = 3",
+        "UPDATE trial SET row_sha256 = '' WHERE id = 3", "DELETE FROM value WHERE rowid = 1",
+        "UPDATE trial SET trace_sha256 = 'cc' WHERE id = 3"}) {
+    const auto changed = folder / "changed.sqlite";
+    std::filesystem::copy_file(path, changed, std::filesystem::copy_options::overwrite_existing);
+    SqliteConnection(changed, SqliteMode::read_write).execute(change);
+    CHECK_THROWS_WITH(ResultsDatabase::open_read_only(changed).trials(), Catch::Contains("trial 3 has other values"));
+  }
+  CHECK(ResultsDatabase::open_read_only(path).trials().size() == 2);
+}
+
 TEST_CASE("the database can be read by SQL", "[results]") {
   const ScratchFolder folder;
   ResultsDatabase::create(folder / "results.sqlite", example_metrics()).write(full_trial(7));
@@ -281,7 +308,7 @@ TEST_CASE("unusable databases are reported with the reason", "[results]") {
   CHECK_THROWS_AS(ResultsDatabase::open(folder / "text.sqlite"), SqliteError);
   CHECK_THROWS_WITH(ResultsDatabase::create(folder / "text.sqlite", example_metrics()), Catch::Contains("exists"));
   SqliteConnection(folder / "other.sqlite", SqliteMode::create).execute("PRAGMA user_version = 7");
-  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 3"));
+  CHECK_THROWS_WITH(ResultsDatabase::open(folder / "other.sqlite"), Catch::Contains("version 7, not 4"));
 }
 
 TEST_CASE("results of schema version 1 are read, and upgraded where they are written to", "[results]") {

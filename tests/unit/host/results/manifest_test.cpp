@@ -18,7 +18,7 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   manifest.commit = "597cdd0a1b2c";
   manifest.identity = {{"experiment.seed", "7"}};
   manifest.files.push_back(hashed_file("map", folder / "map.yaml"));
-  manifest.plugin_limits = {"sandbox", "RLIMIT_DATA", true, {"org.example.helped"}};
+  manifest.plugin_limits = {"namespaces", "RLIMIT_DATA", {"org.example.helped"}};
   std::vector<TrialRecord> trials(3);
   trials[0].timing = {{"test.one", "reads a clock"}};
   trials[2].timing = {{"test.one", "reads a clock"}, {"test.two", "draws in a thread"}};
@@ -36,9 +36,8 @@ TEST_CASE("a manifest can be written and read", "[results]") {
   REQUIRE(read.files.size() == 1);
   CHECK(read.files[0].role == "map");
   CHECK(read.files[0].sha256 == sha256_of_bytes("abc"));
-  CHECK(read.plugin_limits.box == "sandbox");
+  CHECK(read.plugin_limits.box == "namespaces");
   CHECK(read.plugin_limits.memory == "RLIMIT_DATA");
-  CHECK(read.plugin_limits.processes);
   CHECK(read.plugin_limits.with_processes == std::vector<std::string>{"org.example.helped"});
   REQUIRE(read.not_repeatable.size() == 2);
   CHECK(read.not_repeatable[0].reason == trials[0].timing[0]);

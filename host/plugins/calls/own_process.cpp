@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "host/process/own_process.hpp"
+#include "host/plugins/calls/own_process.hpp"
 
-#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <cstdint>
 
 #include "host/errors/machine_error.hpp"
 
@@ -16,16 +15,9 @@ namespace dmrp::host::own_process {
 namespace {
 
 volatile std::uint64_t* is_original = nullptr;  // on a page that is all zero in a copy
-std::atomic<std::uint64_t> copies = 0;
-
-void count_copy() {
-  ++copies;
-}
-
 }  // namespace
 
 void watch() {
-  if (!is_original) pthread_atfork(nullptr, &count_copy, nullptr);
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw MachineError("mmap", errno);
@@ -36,10 +28,6 @@ void watch() {
 
 bool is_copy() {
   return is_original && *is_original == 0;
-}
-
-std::uint64_t copies_made() {
-  return copies;
 }
 
 bool has_children() {
