@@ -2,12 +2,14 @@
 // Cases about calls: should_stop, threads.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <latch>
 #include <limits>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "host/check/check_case.hpp"
 #include "host/check/examination.hpp"
@@ -65,6 +67,26 @@ void first_ask(Examination& it) {
 
 void later_ask(Examination& it) {
   stop_at(it, 5);
+}
+
+// A call that takes so long at an ordinary place needs the ask.
+void asks(Examination& it) {
+  constexpr std::int64_t most_ns = 20'000'000;
+  constexpr int calls = 9;
+  if (sanitizer_is_loaded()) throw Skipped{"a sanitizer changes how long it computes"};
+  it.guard().stop_after_asks(std::numeric_limits<std::int64_t>::max());  // counts them
+  const auto instance = it.create();
+  Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed());
+  std::vector<std::int64_t> taken_ns;
+  for (int call = 0; call < calls; ++call) {
+    const std::int64_t before_ns = cpu_ns_of_this_thread();
+    if (!rehearsal.advance()) break;
+    taken_ns.push_back(cpu_ns_of_this_thread() - before_ns);
+  }
+  if (taken_ns.empty() || it.guard().asks() > 0) return;
+  std::nth_element(taken_ns.begin(), taken_ns.begin() + taken_ns.size() / 2, taken_ns.end());
+  if (const std::int64_t median_ns = taken_ns[taken_ns.size() / 2]; median_ns > most_ns)
+    it.fail(fmt::format("computes for {} ms in a call, and never asks should_stop()", median_ns / 1'000'000));
 }
 
 // Finds plugins that ask rarely or never, not those that ask a little late: time of the processor, which other programs hardly change,
@@ -158,6 +180,8 @@ void concurrent_instances(Examination& it) {
 
 std::span<const CheckCase> call_check_cases() {
   static constexpr CheckCase cases[] = {
+      {"should_stop/asks", for_controllers | for_people, should_stop_cases::asks,
+       "host.h: ask should_stop() at least every millisecond", "ask in the innermost loop that can take long"},
       {"should_stop/first_ask", for_all, should_stop_cases::first_ask,
        "host.h: the call should return soon after should_stop() returned 1; status.h: DMRP_TIMEOUT is plan()'s alone",
        "return with what there is, and with a status that status.h allows"},

@@ -12,8 +12,10 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "host/check/memory_file.hpp"
+#include "host/check/rehearsal/fence.hpp"
 #include "host/errors/escaped_text.hpp"
 #include "host/guests/nursery.hpp"
 #include "host/plugins/calls/own_process.hpp"
@@ -68,8 +70,31 @@ void examine(const CheckCase& check_case, const std::filesystem::path& file, con
   send(answer, {{"result", result}, {"text", examination->text()}});
 }
 
+int answer_descriptor = -1;  // for the signal handler
+
+// Says what the plugin did, if it touched what a case fences. Async-signal-safe.
+void note_breach(int number, siginfo_t* info, void*) {
+  if (const char* const what = fence::breach(info->si_addr))
+    for (const std::string_view part :
+         {std::string_view(R"({"breach":")"), std::string_view(what), std::string_view("\"}\n")}) {
+      [[maybe_unused]] const ssize_t written = write(answer_descriptor, part.data(), part.size());
+    }
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+void watch_fences(int descriptor) {
+  if (sanitizer_is_loaded()) return;  // it has a handler of its own
+  answer_descriptor = descriptor;
+  struct sigaction action {};
+  action.sa_sigaction = &note_breach;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGSEGV, &action, nullptr);
+}
+
 struct Answer {
-  std::string at;  // what was tried last
+  std::string at;      // what was tried last
+  std::string breach;  // of a fence
   std::optional<CheckResult> result;
   std::string text;
 };
@@ -83,6 +108,7 @@ Answer read_answer(const std::string& text) {
                                             text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
     if (!line.is_object()) continue;
     if (line.contains("at") && line["at"].is_string()) answer.at = line["at"].get<std::string>();
+    if (line.contains("breach") && line["breach"].is_string()) answer.breach = line["breach"].get<std::string>();
     if (!line.contains("result") || !line["result"].is_number_integer()) continue;
     const auto result = line["result"].get<std::int64_t>();
     if (result < 0 || result > static_cast<std::int64_t>(CheckResult::crash)) continue;
@@ -98,6 +124,7 @@ std::string explain(const ProcessEnding& ending, bool hung, bool too_large, cons
   std::string text = too_large ? fmt::format("needs more than {} MB of memory", memory_mb)
                      : hung    ? fmt::format("does not end within {} s", case_limit_s())
                                : ending.explain(memory_mb);
+  if (ending.signal == SIGSEGV && !answer.breach.empty()) text = answer.breach;
   if (ending.signal == SIGSYS) text = "makes a system call that the box refuses: " + box::name_of(call.refused);
   if (call.inside) text = call_text(call.plugin, call.function, text);
   return answer.at.empty() ? text : answer.at + ": " + text;
@@ -121,6 +148,7 @@ int run_case_in_guest(const std::vector<std::string>& arguments, const std::vect
     own_process::watch();
     set_resource_limits(std::stoll(arguments.at(4)));
     limit_files(file_mb);
+    watch_fences(answer.descriptor());
     box::enter(plugin && plugin->has_flag(DMRP_FLAG_PROCESSES), &note.note().refused);
     examine(*found, file, plugin ? &*plugin : nullptr, std::stoull(arguments.at(3)), note.note(), answer);
   } catch (const std::bad_alloc&) {

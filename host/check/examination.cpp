@@ -50,12 +50,16 @@ std::unique_ptr<Instance> Examination::create() {
   return create(defaults());
 }
 
+std::unique_ptr<Instance> Examination::create_for(std::uint32_t robot) {
+  return create(defaults(), guard_, 0, robot);
+}
+
 std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>& parameters) {
   return create(parameters, guard_);
 }
 
 std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>& parameters, CallGuard& guard,
-                                              std::uint32_t grown_bytes) {
+                                              std::uint32_t grown_bytes, std::uint32_t robot) {
   init();
   PluginUse use;
   use.info = *plugin_;
@@ -63,7 +67,7 @@ std::unique_ptr<Instance> Examination::create(const std::vector<ParameterValue>&
   use.parameters = parameters;
   const bool drives_one = plugin_->kind == DMRP_KIND_LOCAL_CONTROLLER && !plugin_->has_flag(DMRP_FLAG_CENTRAL);
   return std::make_unique<Instance>(
-      *library_, use, drives_one ? 0 : DMRP_NO_ROBOT, guard,
+      *library_, use, drives_one ? static_cast<std::int32_t>(robot) : DMRP_NO_ROBOT, guard,
       [this](std::int32_t level, const std::string&, const std::string& text) { log(level, text); }, grown_bytes);
 }
 

@@ -44,9 +44,10 @@ class Examination {
   // An instance of the plugin, created after init(); with the declared defaults, or these parameters. `guard`: of the
   // thread that calls it. `grown_bytes`: by which what the host hands to the instance is longer than this host's.
   std::unique_ptr<Instance> create();
+  std::unique_ptr<Instance> create_for(std::uint32_t robot);  // that a controller drives
   std::unique_ptr<Instance> create(const std::vector<ParameterValue>& parameters);
   std::unique_ptr<Instance> create(const std::vector<ParameterValue>& parameters, CallGuard& guard,
-                                   std::uint32_t grown_bytes = 0);
+                                   std::uint32_t grown_bytes = 0, std::uint32_t robot = 0);
   std::vector<ParameterValue> defaults() const;
 
   // Calls init(), and deinit().

@@ -101,10 +101,11 @@ void* address(Function* function) {
 
 // Clocks
 
-std::atomic<std::int64_t> leaps = 0;
+std::atomic<std::int64_t> leap_ns = 0;    // of each look
+std::atomic<std::int64_t> offset_ns = 0;  // of the next one
 
 void leap(timespec& time) {
-  const std::int64_t ns = time.tv_nsec + ++leaps * clock_leap_ns;
+  const std::int64_t ns = time.tv_nsec + (offset_ns += leap_ns);
   time.tv_sec += ns / 1'000'000'000;
   time.tv_nsec = ns % 1'000'000'000;
 }
@@ -180,11 +181,21 @@ void counted_free(void* block) {
 
 }  // namespace
 
-void let_clocks_leap() {
+static void hook_clocks() {
   const std::array hooks = {Hook{"clock_gettime", address(leaping_clock_gettime)},
                             Hook{"gettimeofday", address(leaping_gettimeofday)}, Hook{"time", address(leaping_time)},
                             Hook{"clock", address(leaping_clock)}};
   hook(hooks);
+}
+
+void let_clocks_leap() {
+  leap_ns = clock_leap_ns;
+  hook_clocks();
+}
+
+void let_clocks_be_off(std::int64_t ns) {
+  offset_ns = ns;
+  hook_clocks();
 }
 
 void count_allocations(const CallGuard& guard) {

@@ -2,6 +2,9 @@
 // Cases that rehearse trials: lifecycle, status, determinism, numbers, growth.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -52,22 +55,38 @@ void start_after_start(Examination& it) {
   expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
 }
 
+// Each drives another robot, if it is a controller.
 void interleaved(Examination& it) {
-  const Outputs of_first = alone(it, it.seed());
-  const Outputs of_second = alone(it, it.seed() + 1);
-  const auto first_instance = it.create();
-  const auto second_instance = it.create();
-  Rehearsal first(*first_instance, it.plugin(), {}, it.seed());
-  Rehearsal second(*second_instance, it.plugin(), {}, it.seed() + 1);
-  bool first_goes_on = true;
-  bool second_goes_on = true;
-  while (first_goes_on || second_goes_on) {
-    if (first_goes_on) first_goes_on = first.advance();
-    if (second_goes_on) second_goes_on = second.advance();
+  constexpr std::uint32_t count = 3;
+  std::vector<Outputs> expected;
+  std::vector<std::unique_ptr<Instance>> instances;
+  std::vector<std::unique_ptr<Rehearsal>> rehearsals;
+  for (std::uint32_t i = 0; i < count; ++i)
+    expected.push_back(rehearse(*it.create_for(i), it.plugin(), {.driven = i}, it.seed() + i));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    instances.push_back(it.create_for(i));
+    rehearsals.push_back(
+        std::make_unique<Rehearsal>(*instances[i], it.plugin(), StageSettings{.driven = i}, it.seed() + i));
   }
-  it.at("two instances in turns");
-  expect_same(it, first.outputs(), of_first);
-  expect_same(it, second.outputs(), of_second);
+  std::vector<bool> goes_on(count, true);
+  while (std::find(goes_on.begin(), goes_on.end(), true) != goes_on.end())
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (goes_on[i]) goes_on[i] = rehearsals[i]->advance();
+  it.at("three instances in turns");
+  for (std::uint32_t i = 0; i < count; ++i) expect_same(it, rehearsals[i]->outputs(), expected[i]);
+}
+
+// What counts trials, or fills up, shows late.
+void many_trials(Examination& it) {
+  constexpr int trials = 64;
+  const Outputs expected = alone(it, it.seed());
+  const auto instance = it.create();
+  for (int i = 0; i < trials; ++i) {
+    it.at(fmt::format("trial {}", i + 1));
+    rehearse(*instance, it.plugin(), {.ticks = 2}, it.seed() + 1);
+  }
+  it.at(fmt::format("a trial after {} short ones", trials));
+  expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
 }
 
 void process_state(Examination& it) {
@@ -126,6 +145,34 @@ void in_another_place(Examination& it) {
   expect_same(it, alone(it, it.seed()), expected);
 }
 
+// What is drawn, counted or kept rarely shows late.
+void long_trial(Examination& it) {
+  constexpr std::uint32_t ticks = 400;
+  const StageSettings settings = {.ticks = ticks};
+  const Outputs expected = rehearse(*it.create(), it.plugin(), settings, it.seed());
+  it.at(fmt::format("the same trial of {} calls again", ticks));
+  expect_same(it, rehearse(*it.create(), it.plugin(), settings, it.seed()), expected);
+}
+
+void other_hours(Examination& it) {
+  constexpr std::int64_t hour_ns = 3'600'000'000'000;
+  const Outputs expected = alone(it, it.seed());
+  for (const std::int64_t hours : {6, 12, 18, 24 * 200}) {
+    it.at(fmt::format("with clocks {} hours later", hours));
+    let_clocks_be_off(hours * hour_ns);
+    expect_same(it, alone(it, it.seed()), expected);
+  }
+}
+
+void other_environment(Examination& it) {
+  const Outputs expected = alone(it, it.seed());
+  it.at("with other environment variables");
+  for (const char* const name : {"HOME", "USER", "LANG", "TMPDIR", "PWD", "OMP_NUM_THREADS"})
+    setenv(name, "/home/somebody", 1);
+  setenv("TZ", "Asia/Tokyo", 1);
+  expect_same(it, alone(it, it.seed()), expected);
+}
+
 // A search that time ends does less then.
 void leaping_clocks(Examination& it) {
   const Outputs expected = alone(it, it.seed());
@@ -136,15 +183,48 @@ void leaping_clocks(Examination& it) {
 
 }  // namespace determinism_cases
 
+namespace numbers_cases {
+
+// More than a plugin commands that leaves it to the host to clip.
+void limits(Examination& it) {
+  constexpr double odd = 3.0;
+  constexpr double wrong = 10.0;
+  const Stage stage(it.plugin(), {}, it.seed());
+  const dmrp_limits& limits = *stage.variant.view.world().robots[0].limits;
+  double most = 0.0;
+  const Outputs outputs = alone(it, it.seed());
+  for (std::size_t i = 0; i < outputs.size();) {
+    const bool drives = outputs[i++] != DMRP_NO_SOLUTION;
+    if (!drives) continue;
+    most = std::max({most, std::abs(outputs[i]) / limits.v_max, std::abs(outputs[i + 2]) / limits.omega_max});
+    i += 3;
+  }
+  const std::string text = fmt::format("commands {:.0f} times what the robot's limits allow", most);
+  if (most > wrong)
+    it.fail(text);
+  else if (most > odd)
+    it.warn(text);
+}
+
+}  // namespace numbers_cases
+
 namespace growth_cases {
 
 namespace {
 
 constexpr std::uint32_t grown_bytes = 24;
 
+// What lies beyond this host's fields has a meaning for a plugin of a later minor version.
+void skip_if_newer(Examination& it) {
+  const dmrp_entry& entry = it.library().entry();
+  if (entry.abi_minor > DMRP_ABI_MINOR)
+    throw Skipped{fmt::format("it is of version 1.{}, and this host of 1.{}", entry.abi_minor, DMRP_ABI_MINOR)};
+}
+
 }  // namespace
 
 void longer_structs(Examination& it) {
+  skip_if_newer(it);
   const Outputs expected = alone(it, it.seed());
   const auto instance = it.create();
   it.at(fmt::format("with structs and strides that are {} bytes longer", grown_bytes));
@@ -152,6 +232,7 @@ void longer_structs(Examination& it) {
 }
 
 void longer_host(Examination& it) {
+  skip_if_newer(it);
   const Outputs expected = alone(it, it.seed());
   it.at(fmt::format("with a dmrp_host, parameters, sinks and extensions that are {} bytes longer", grown_bytes));
   const auto instance = it.create(it.defaults(), it.guard(), grown_bytes);
@@ -174,6 +255,9 @@ std::span<const CheckCase> trial_check_cases() {
       {"lifecycle/interleaved", for_all, lifecycle_cases::interleaved,
        "abi.h: results do not depend on other instances in the process",
        "keep in the instance what now is static or global"},
+      {"lifecycle/many_trials", for_all, lifecycle_cases::many_trials,
+       "plugin.h: start() begins a trial; an earlier one must not influence it",
+       "keep in the instance what now is static, and set it in start()"},
       {"lifecycle/process_state", for_all, lifecycle_cases::process_state,
        "abi.h: a plugin does not change the locale, working directory, signal handlers, environment or "
        "descriptors that it did not open",
@@ -201,6 +285,17 @@ std::span<const CheckCase> trial_check_cases() {
        "abi.h: results do not depend on clocks",
        "bound the work by counts, not by time; ask should_stop() for the limit of time; a plugin that cannot says so "
        "with draft/timing.h"},
+      {"determinism/long_trial", for_controllers | for_people, determinism_cases::long_trial,
+       "plugin.h: the same seed gives the same results, to the bit",
+       "draw from dmrp/toolkit/random.hpp with the seed of start(); keep nothing in thread_local or static variables"},
+      {"determinism/other_hours", for_all, determinism_cases::other_hours, "abi.h: results do not depend on clocks",
+       "read no clock"},
+      {"determinism/other_environment", for_all, determinism_cases::other_environment,
+       "abi.h: results depend on the arguments, the parameters and the seed of start() alone",
+       "declare a parameter for what the environment now says"},
+      {"numbers/limits", for_controllers, numbers_cases::limits,
+       "local_controller.h: commands are in m/s and rad/s; the host clips them to the robot's limits",
+       "compute angles in radians, and clamp the command to observation.limits"},
       {"numbers/nobody_near", for_all, [](Examination& it) { rehearse_on(it, {.robots = 1, .people = 0}); },
        "observation.h: agents may be none", "divide by no count that may be zero"},
       {"numbers/crowd", for_controllers | for_people | for_metrics,

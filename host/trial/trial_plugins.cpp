@@ -308,12 +308,16 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     commands_.push_back(std::nullopt);
     return;
   }
-  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega)) {
+  const auto fail = [&](const char* kind, const std::string& text) {
     CallSite site = controllers_[robot.robot].seat.instance->site(function, step);
     site.robot = static_cast<std::int32_t>(robot.robot);
-    throw PluginFault(fault_kind::bad_output, site,
-                      fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
-  }
+    throw PluginFault(kind, site, text);
+  };
+  if (central_ && answer.call.status != DMRP_OK)  // the status of a call has been checked
+    fail(fault_kind::abi_breach,
+         fmt::format("gave the status {}, which status.h does not allow a command", answer.call.status));
+  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
+    fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
   commands_.push_back(dmrp_twist{command.v_x, command.v_y, command.omega});
 }
 

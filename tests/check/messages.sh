@@ -20,6 +20,11 @@ experiment_with() {
   "$host" validate experiment.toml 2>&1
 }
 
+# cases about what this host does not know do not apply to a plugin that may know it
+check "$planted/libdmrp_planted_in_c.so" --only growth >newer.out || fail "$(cat newer.out)"
+grep -q 'skip  growth/longer_structs, growth/longer_host: it is of version 1.1, and this host of 1.0' newer.out ||
+  fail "$(cat newer.out)"
+
 mkdir folder
 ln -s nowhere.so link.so
 echo text >text.so

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <dmrp/cpp/timing.hpp>
 #include <dmrp/plugin.hpp>
@@ -46,6 +47,7 @@ int created = 0;
 std::atomic<int> instances = 0;
 std::atomic<int> running = 0;
 std::uint64_t calls_of_all = 0;
+std::uint64_t starts_of_all = 0;
 thread_local std::uint64_t calls_of_thread = 0;
 
 // How often a loop turns that time ends, at most three times.
@@ -56,10 +58,10 @@ int turns_in_time() {
   return turns;
 }
 
-// Half a second of the processor.
-void compute_for_long() {
+// Processor time.
+void compute_for(std::clock_t time) {
   const std::clock_t begin = std::clock();
-  while (std::clock() - begin < CLOCKS_PER_SEC / 2) {
+  while (std::clock() - begin < time) {
   }
 }
 
@@ -97,6 +99,9 @@ class Planted : public Kind {
     if (has("changes its descriptor"))
       for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
         const_cast<dmrp_descriptor*>(dmrp_entry_v1.descriptor(i))->name = "Other";
+    ++starts_of_all;
+    if (has("keeps the first world") && !first_world_) first_world_ = start.world.operator->();
+    if (has("writes to the world")) const_cast<dmrp::Limits&>(*start.world.robots()[0].limits).v_max = 3.0;
     if (!has("keeps the last trial")) calls_ = 0;
     far_ = start.world->lower.x > 1e5;
     headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals->pose.theta);
@@ -132,8 +137,14 @@ class Planted : public Kind {
     }
     if (has("keeps more and more")) kept_.emplace_back(10'000, 'x');
     if (has("sleeps")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (has("never asks") && calls_ == 1) compute_for_long();
+    if (has("never asks") && calls_ == 1) compute_for(CLOCKS_PER_SEC / 2);
     if (has("works long at the maximum") && *level == 10.0) crash();
+    if (has("computes in silence")) compute_for(CLOCKS_PER_SEC / 15);
+    if (has("tires") && starts_of_all > 40) return 1e-3;
+    if (has("slips rarely") && calls_of_all % 397 == 0) return 1e-3;
+    if (has("works by day")) return 1e-3 * static_cast<double>(std::time(nullptr) / 3600 % 24);
+    if (has("reads its home")) return 1e-3 * static_cast<double>(std::strlen(std::getenv("HOME")));
+    if (has("keeps the first world")) return 1e-3 * first_world_->robot_count;
     if (has("stops by the clock")) return 1e-3 * turns_in_time();
     if (has("keeps the last trial")) return 1e-3 * static_cast<double>(calls_);
     if (has("shares a variable") || has("says that it draws in a thread"))
@@ -154,6 +165,7 @@ class Planted : public Kind {
   }
 
   char* leaked_ = nullptr;
+  const dmrp_world* first_world_ = nullptr;
   std::vector<std::string> kept_;
   bool started_ = false;
   bool far_ = false;
@@ -223,9 +235,16 @@ class Controller final : public Planted<dmrp::LocalController> {
     if (has("has room for 100") && now.agents.size() > 100) crash();
     for (int i = 0; i < 10; ++i)
       if (should_stop() && has("times out")) return Status::timeout;
+    if (has("commands degrees")) command.omega = 90.0;
+    if (has("reads beyond the agents")) command.omega = 0.0 * now.agents[now.agents.size()].radius_m;
+    if (has("keeps an agent")) command.omega = kept_ ? 0.0 * kept_->radius_m : 0.0;
+    kept_ = &now.agents[0];
     if (has("writes to its input")) const_cast<dmrp::Limits&>(now.limits).v_max = 9.0;
     return has("odd status") ? static_cast<Status>(42) : Status::ok;
   }
+
+ private:
+  const dmrp_agent* kept_ = nullptr;
 };
 
 class People final : public Planted<dmrp::PedestrianModel> {

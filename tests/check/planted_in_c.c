@@ -86,5 +86,7 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, init, deinit, plugin_count, descriptor, create};
+// of a later minor version, which can do without it
+DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR + 1, 0,     DMRP_ABI_DRAFT, init, deinit,
+              plugin_count,       descriptor,         create};
 #endif

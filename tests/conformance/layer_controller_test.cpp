@@ -35,6 +35,7 @@ struct Scene {
     observation.agents = &agents.front().known;
     observation.agent_count = count_of(agents);
     observation.agent_stride = sizeof(Longer<dmrp_agent>);
+    observation.steering_angle = 0.125;
   }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -97,7 +98,7 @@ TEST_CASE("a controller sees its path and observation, and its command comes bac
   // a newer host: the plugin must not write the additional fields of its command
   auto command = longer_output<dmrp_command>();
   REQUIRE(table.step(sample.c.self, &scene.observation, &command.known) == DMRP_OK);
-  CHECK(seen().numbers == std::vector<double>{3.0, 0.8, 0.25, 1.5, 9.0, 11.0, 12.0, 13.0, 0.5, 0.0});
+  CHECK(seen().numbers == std::vector<double>{3.0, 0.8, 0.25, 1.5, 9.0, 0.125, 11.0, 12.0, 13.0, 0.5, 0.0});
   CHECK(command.known.v_x == 0.5);
   CHECK(command.known.v_y == 0.0);
   CHECK(command.known.omega == -0.25);

@@ -95,7 +95,8 @@ class SampleController final : public dmrp::LocalController {
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    seen().numbers = {now.pose.x, now.limits.v_max, now.footprint.radius_m, dmrp::seconds(now.t_ns), now.goal.pose.x};
+    seen().numbers = {now.pose.x,      now.limits.v_max,  now.footprint.radius_m, dmrp::seconds(now.t_ns),
+                      now.goal.pose.x, now.steering_angle};
     for (const dmrp::Agent& agent : now.agents) seen().numbers.push_back(static_cast<double>(agent.id));
     for (const dmrp::Polygon& part : dmrp::parts(now.footprint)) seen().numbers.push_back(part.vertices[0].x);
     command.v_x = 0.5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A controller drives the first robot along a straight plan among people, or all robots if it is central.
+// A controller drives a robot along a straight plan among people, or all robots if it is central.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,12 +21,13 @@ class ControllerCalls {
       : instance_(instance),
         stage_(stage),
         central_(info.has_flag(DMRP_FLAG_CENTRAL)),
-        driven_(central_ ? static_cast<std::uint32_t>(stage.world.robots().size()) : 1),
+        first_(central_ ? 0 : stage.settings.driven),
+        end_(central_ ? static_cast<std::uint32_t>(stage.world.robots().size()) : first_ + 1),
         table_(instance.table<dmrp_local_controller>()),
-        extensions_(instance, info, stage, driven_),
+        extensions_(instance, info, stage, end_),
         dispatcher_(stage.variant, stage.world),
         inputs_(stage.settings.grown_bytes),
-        revisions_(driven_) {
+        revisions_(end_) {
     Plan plan = stage.straight_plan();
     dispatcher_.set_plan(plan);
   }
@@ -35,7 +36,7 @@ class ControllerCalls {
     if (tick_++ >= stage_.settings.ticks) return end();
     dispatcher_.update_targets();
     std::vector<std::uint32_t> active;
-    for (std::uint32_t i = 0; i < driven_; ++i)
+    for (std::uint32_t i = first_; i < end_; ++i)
       if (stage_.world.robots()[i].state == DMRP_ROBOT_ACTIVE) active.push_back(i);
     if (active.empty()) return end();
     for (const std::uint32_t robot : active) {
@@ -68,7 +69,6 @@ class ControllerCalls {
     inputs_.seal();
     instance_.call("set_path", tick_, stage_budget_ns, Answers::no_other,
                    [&] { return table_.set_path(instance_.self(), update); });
-    inputs_.check(instance_.site("set_path", tick_));
   }
 
   dmrp_observation grown_observation(std::uint32_t robot, const Guidance& guidance) {
@@ -84,15 +84,14 @@ class ControllerCalls {
 
   void step(Outputs& outputs) {
     inputs_.clear();
-    const Guidance guidance = dispatcher_.guidance(0);
-    const dmrp_observation* const seen = inputs_.one(grown_observation(0, guidance));
+    const Guidance guidance = dispatcher_.guidance(first_);
+    const dmrp_observation* const seen = inputs_.one(grown_observation(first_, guidance));
     inputs_.seal();
     Output<dmrp_command> command;
     const auto result = instance_.call("step", tick_, stage_budget_ns, Answers::no_solution,
                                        [&] { return table_.step(instance_.self(), seen, &command.value); });
     command.check(instance_.site("step", tick_), "dmrp_command");
-    inputs_.check(instance_.site("step", tick_));
-    drive(0, command.value, result.status, "step", outputs);
+    drive(first_, command.value, result.status, "step", outputs);
   }
 
   void step_all(const std::vector<std::uint32_t>& active, Outputs& outputs) {
@@ -113,7 +112,6 @@ class ControllerCalls {
     inputs_.seal();
     instance_.call("step_all", tick_, stage_budget_ns, Answers::no_other,
                    [&] { return table_.step_all(instance_.self(), fleet); });
-    inputs_.check(instance_.site("step_all", tick_));
     commands_memory.check_output<dmrp_command>(active.size(), instance_.site("step_all", tick_));
     for (std::size_t i = 0; i < active.size(); ++i) {
       const dmrp_command& command = commands_memory.at(commands, i);
@@ -124,6 +122,9 @@ class ControllerCalls {
   void drive(std::uint32_t robot, const dmrp_command& command, std::int32_t status, const char* function,
              Outputs& outputs) {
     outputs.push_back(status);
+    if (status != DMRP_NO_SOLUTION && status != DMRP_OK && status != DMRP_WARNING)
+      throw PluginFault(fault_kind::abi_breach, instance_.site(function, tick_),
+                        fmt::format("gave robot {} the status {}", robot, status));
     dmrp_twist twist{};
     if (status != DMRP_NO_SOLUTION) {
       twist = {command.v_x, command.v_y, command.omega};
@@ -138,7 +139,8 @@ class ControllerCalls {
   Instance& instance_;
   Stage& stage_;
   bool central_;
-  std::uint32_t driven_;  // robots
+  std::uint32_t first_;  // of the robots that it drives
+  std::uint32_t end_;
   dmrp_local_controller table_;
   StageExtensions extensions_;
   Dispatcher dispatcher_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// inputs.hpp: what a case passes to a plugin function: copies, as long as a later minor version would make them, that are
-// compared after the call.
+// inputs.hpp: what a case passes to a plugin function: copies behind a fence, as long as a later minor version would make
+// them.
 #pragma once
 
 #include <dmrp/path.h>
@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <deque>
-#include <vector>
 
+#include "host/check/rehearsal/fence.hpp"
 #include "host/plugins/calls/plugin_fault.hpp"
 
 namespace dmrp::host {
@@ -57,36 +56,40 @@ class Inputs {
     return *reinterpret_cast<Element*>(reinterpret_cast<std::uint8_t*>(base) + index * stride<Element>());
   }
 
-  // Before and after a call: that the plugin has written to nothing of it. Throws PluginFault.
-  void seal() { sealed_ = blocks_; }
-  void check(const CallSite& site) const {
-    if (sealed_ != blocks_) throw PluginFault(fault_kind::abi_breach, site, "wrote to its input");
+  // Before a call: the plugin may only read it.
+  void seal() { fence_.seal(); }
+  // Before the next one: the plugin may not touch it any more.
+  void clear() {
+    fence_.release();
+    first_ = nullptr;
   }
-  void clear() { blocks_.clear(); }
 
   // Of the first array, if it is a plugin's output: that only the fields of `count` elements were written to.
   template <class Element>
   void check_output(std::size_t count, const CallSite& site) const {
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(blocks_.front().data());
-    for (std::size_t i = 0; i < blocks_.front().size() * sizeof(std::uint64_t); ++i) {
+    for (std::size_t i = 0; i < first_bytes_; ++i) {
       const bool is_field = i / stride<Element>() < count && i % stride<Element>() < sizeof(Element);
-      if (!is_field && bytes[i] != static_cast<std::uint8_t>(unknown))
+      if (!is_field && first_[i] != unknown)
         throw PluginFault(fault_kind::abi_breach, site, "wrote beyond the end of its output");
     }
   }
 
  private:
-  static constexpr std::uint64_t unknown = 0xa5a5a5a5a5a5a5a5;  // in the fields that no plugin knows
-
-  static constexpr std::size_t margin_words = 32;
+  static constexpr std::uint8_t unknown = 0xa5;  // in the fields that no plugin knows
 
   std::uint8_t* add(std::size_t bytes) {
-    return reinterpret_cast<std::uint8_t*>(blocks_.emplace_back(bytes / 8 + margin_words, unknown).data());
+    std::uint8_t* const block = fence_.add(bytes, unknown);
+    if (!first_) {
+      first_ = block;
+      first_bytes_ = bytes;
+    }
+    return block;
   }
 
   std::uint32_t grown_bytes_;
-  std::deque<std::vector<std::uint64_t>> blocks_;  // aligned as the structs are
-  std::deque<std::vector<std::uint64_t>> sealed_;
+  Fence fence_;
+  const std::uint8_t* first_ = nullptr;
+  std::size_t first_bytes_ = 0;
 };
 
 }  // namespace dmrp::host

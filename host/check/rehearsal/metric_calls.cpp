@@ -45,7 +45,6 @@ class MetricCalls {
     const dmrp_metric_trial* const trial = plans_.one(dmrp_metric_trial{0, 0, c_plan_});
     plans_.seal();
     measurement_.begin(*trial);
-    plans_.check(instance_.site("begin", 0));
   }
 
   const dmrp_plan& grown_plan(const dmrp_plan& plan) {
@@ -92,7 +91,6 @@ class MetricCalls {
     const dmrp_sample* const grown = inputs_.one(sample);
     inputs_.seal();
     measurement_.observe(*grown);
-    inputs_.check(instance_.site("observe", step_));
   }
 
   bool finish(Outputs& outputs) {
@@ -106,7 +104,6 @@ class MetricCalls {
                        inputs_.array(ends.data(), ends.size()), robot_count_, inputs_.stride<dmrp_robot_end>()});
     inputs_.seal();
     const MetricResult result = measurement_.finish(*end);
-    inputs_.check(instance_.site("finish", step_));
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (const MetricValue& value : result.values)
       outputs.insert(outputs.end(), {static_cast<double>(value.subject.value_or(0)), value.coordinate.value_or(none),

@@ -16,8 +16,9 @@ namespace dmrp::host {
 struct StageSettings {
   std::uint32_t robots = 3;
   std::uint32_t people = 8;
-  double corner_m = 0.0;  // both coordinates of the hall's lower left corner
-  bool is_large = false;  // 60 x 50 m instead of 16 x 12 m
+  std::uint32_t driven = 0;  // the robot that a controller's instance drives
+  double corner_m = 0.0;     // both coordinates of the hall's lower left corner
+  bool is_large = false;     // 60 x 50 m instead of 16 x 12 m
   bool goals_have_headings = false;
   bool starts_at_goal = false;              // the first robot; its path is one waypoint
   bool by_waypoint = false;                 // controllers get one waypoint at a time

@@ -94,6 +94,9 @@ std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
   MetricEvent event = {escaped(c.name), c.from_ns, c.to_ns, {}, {}, escaped(c.text), c.severity, std::nullopt};
   for (std::uint32_t i = 0; i < c.subject_count; ++i) {
     const dmrp_subject subject = copy_element(c.subjects, c.subject_stride, i);
+    if (subject.reserved != 0)
+      return refuse(collected, "event", c.name,
+                    fmt::format("a reserved field of its subjects is {}, not 0", subject.reserved));
     if (subject.kind == DMRP_SUBJECT_ROBOT && subject.id >= collected.robot_count)
       return refuse(collected, "event", c.name,
                     fmt::format("robot {}, but there are {}", subject.id, collected.robot_count));

@@ -50,10 +50,14 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
   if (path.count > 0 && !has_v1_0<dmrp_waypoint>(path.stride))
     return refuse(collected, robot,
                   fmt::format("its stride is {}, at least {}", path.stride, size_v1_0<dmrp_waypoint>));
+  constexpr const char* odd_reserved = "a reserved field of its {} is {}, not 0";
+  if (path.reserved != 0) return refuse(collected, robot, fmt::format(odd_reserved, "path", path.reserved));
   std::vector<dmrp_waypoint> waypoints;
   waypoints.reserve(path.count);
   for (std::uint32_t i = 0; i < path.count; ++i) {
     waypoints.push_back(copy_element(path.waypoints, path.stride, i));
+    if (const std::uint32_t reserved = waypoints.back().reserved; reserved != 0)
+      return refuse(collected, robot, fmt::format(odd_reserved, "waypoints", reserved));
     // one NaN for all: a stored plan has the same bits
     if (std::isnan(waypoints.back().theta)) waypoints.back().theta = core::free_heading;
   }

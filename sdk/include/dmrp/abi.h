@@ -14,7 +14,8 @@
 //   appends fields: what a plugin appends for itself is not passed on.
 // - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size, nor past
 //   the stride of an output array (DMRP_AT_OUT). Nothing that may grow is embedded in another struct.
-// - `reserved` fields are zero and ignored: a later minor version may give them a meaning in which zero is as before.
+// - `reserved` fields are zero: a later minor version may give them a meaning in which zero is as before. A reader ignores
+//   them in what the host hands out; the host refuses paths and events in which a plugin has set them.
 // - *Constants* are open lists unless a header says otherwise: a minor version may add to them, so readers skip, or
 //   treat as the header says, what they do not know.
 // - Pointers are not NULL, and functions in a table are there, unless a header says that they may be NULL.

@@ -70,6 +70,7 @@ inline std::int32_t step_all(dmrp_instance* self, const dmrp_fleet* fleet) {
     drive(now, command);
     robots += std::to_string(now.robot);
     if (self->is("brake " + std::to_string(now.robot))) command.status = DMRP_NO_SOLUTION;
+    if (self->is("status " + std::to_string(now.robot))) command.status = 99;
     if (self->is("nan " + std::to_string(now.robot))) command.v_x = NAN;
   }
   self->log("drives " + robots);

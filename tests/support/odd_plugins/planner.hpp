@@ -21,7 +21,10 @@ inline std::int32_t give_path(const dmrp_instance& self, const dmrp_planning_pro
     waypoints.push_back({x, robot.start.y, std::numeric_limits<double>::quiet_NaN(), t_ns, 0, 0});
     t_ns += problem.step_duration_ns;
   }
-  const Grown<dmrp_path> path({0, waypoints.count(), waypoints.stride(), 0, waypoints.data()}, self.extra("path"));
+  if (self.is("reserved waypoint")) waypoints.push_back({robot.goals->pose.x, robot.start.y, 0.0, t_ns, 0, 7});
+  const std::uint32_t reserved = self.is("reserved path") ? 7 : 0;
+  const Grown<dmrp_path> path({0, waypoints.count(), waypoints.stride(), reserved, waypoints.data()},
+                              self.extra("path"));
   return sink->path(sink, index, path.get());
 }
 

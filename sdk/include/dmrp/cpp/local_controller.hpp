@@ -27,7 +27,8 @@ struct Observation {
         released_waypoint(c.released_waypoint),
         limits(*c.limits),
         footprint(*c.footprint),
-        agents(c.agents, c.agent_count, c.agent_stride) {}
+        agents(c.agents, c.agent_count, c.agent_stride),
+        steering_angle(c.steering_angle) {}
 
   std::uint32_t robot;
   std::int64_t t_ns;
@@ -44,6 +45,7 @@ struct Observation {
   const Limits& limits;
   const Footprint& footprint;
   Span<Agent> agents;
+  double steering_angle;
 };
 
 struct Command {

@@ -200,4 +200,17 @@ TEST_CASE("a central controller brakes one robot, or is at fault for one") {
   CHECK(fault.function() == std::string("step_all"));
   CHECK(fault.robot() == 1);
   CHECK_THAT(fault.what(), Catch::Contains("nan"));
+
+  OddStage status(central, "status 1", central);
+  const PluginFault breach = status.fault();
+  CHECK(breach.kind() == std::string(fault_kind::abi_breach));
+  CHECK(breach.robot() == 1);
+  CHECK(breach.what() == std::string("gave the status 99, which status.h does not allow a command"));
+}
+
+TEST_CASE("a path with a reserved field that is set is refused") {
+  for (const std::string part : {"path", "waypoint"}) {
+    OddStage stage(planner, "reserved " + part);
+    check_fault(stage, fault_kind::error_status, "plan", "a reserved field of its " + part);
+  }
 }
