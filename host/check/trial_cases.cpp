@@ -14,6 +14,7 @@
 #include "host/check/process_state.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/same_outputs.hpp"
+#include "host/check/static_variables.hpp"
 #include "host/check/symbol_hooks.hpp"
 
 namespace dmrp::host {
@@ -87,6 +88,18 @@ void many_trials(Examination& it) {
   }
   it.at(fmt::format("a trial after {} short ones", trials));
   expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
+}
+
+// A first trial fills in what is made when it is needed.
+void static_variables(Examination& it) {
+  alone(it, it.seed());
+  const StaticVariables before(it.library().file());
+  const auto instance = it.create();
+  Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed() + 1);
+  while (rehearsal.advance())
+    if (const std::vector<std::uintptr_t> places = before.changed(); !places.empty())
+      return it.warn(fmt::format("changes static variables in a trial: {} bytes, the first at {:#x} of the library",
+                                 places.size(), places.front()));
 }
 
 void process_state(Examination& it) {
@@ -258,6 +271,9 @@ std::span<const CheckCase> trial_check_cases() {
       {"lifecycle/many_trials", for_all, lifecycle_cases::many_trials,
        "plugin.h: start() begins a trial; an earlier one must not influence it",
        "keep in the instance what now is static, and set it in start()"},
+      {"lifecycle/static_variables", for_all, lifecycle_cases::static_variables,
+       "abi.h: results do not depend on earlier trials or other instances in the process",
+       "keep in the instance what now is static (nm -C LIBRARY names the place)"},
       {"lifecycle/process_state", for_all, lifecycle_cases::process_state,
        "abi.h: a plugin does not change the locale, working directory, signal handlers, environment or "
        "descriptors that it did not open",

@@ -73,12 +73,12 @@ class Planted : public Kind {
   dmrp::Param<double> level = this->param("level", 1.0).range(0.0, 10.0).doc(has("no doc") ? "" : "how much");
 
   Planted() {
-    ++instances;
+    if (has("is one at a time")) ++instances;
     if (has("leaks")) leaked_ = new char[4096];
     if (has("crashes at the 50th") && ++created > 50) crash();
   }
   ~Planted() override {
-    --instances;
+    if (has("is one at a time")) --instances;
     if (has("uses the world in destroy") && started_) crash();
   }
 
@@ -99,7 +99,7 @@ class Planted : public Kind {
     if (has("changes its descriptor"))
       for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
         const_cast<dmrp_descriptor*>(dmrp_entry_v1.descriptor(i))->name = "Other";
-    ++starts_of_all;
+    if (has("tires")) ++starts_of_all;
     if (has("keeps the first world") && !first_world_) first_world_ = start.world.operator->();
     if (has("writes to the world")) const_cast<dmrp::Limits&>(*start.world.robots()[0].limits).v_max = 3.0;
     if (!has("keeps the last trial")) calls_ = 0;
@@ -121,7 +121,7 @@ class Planted : public Kind {
   // A number for the outputs, which depends on what it may not where that is the fault.
   double number() {
     ++calls_;
-    ++calls_of_all;
+    if (has("shares a variable") || has("says that it draws in a thread") || has("slips rarely")) ++calls_of_all;
     ++calls_of_thread;
     if (has("exits in a call")) std::exit(0);
     if (has("prints garbage"))

@@ -41,6 +41,7 @@ faults=(
   'controller|lifecycle/start_after_start|keeps the last trial|fail|instead of'
   'metric|lifecycle/interleaved|shares a variable|fail|instead of'
   'metric|lifecycle/many_trials|tires|fail|instead of'
+  'planner|lifecycle/static_variables|shares a variable|warn|changes static variables'
   'people|lifecycle/process_state|changes the folder|fail|working directory'
   'planner|status/ordinary_trial|odd status|fail|unknown status 42'
   'controller|status/ordinary_trial|writes to its input|crash|wrote to its input'
