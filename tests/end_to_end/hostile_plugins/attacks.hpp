@@ -274,8 +274,9 @@ inline void attack(const std::string& what) {
   if (what == "falsifies databases") falsify_databases();
   if (what == "fills the disk" && fills_the_disk()) crash();
   if (what == "slows others down" && slows_others_down()) crash();
-  if (what == "kills everything") kill(-1, SIGKILL);
-  if (what == "kills its group") kill(0, SIGKILL);
+  // only where it should be harmless: outside of a namespace this is the whole machine
+  if (what == "kills everything" && getppid() == 0) kill(-1, SIGKILL);
+  if (what == "kills its group" && getppid() == 0) kill(0, SIGKILL);
   if (what == "burns processors")
     for (int i = 0; i < 4; ++i)
       std::thread([] {
