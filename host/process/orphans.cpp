@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 namespace dmrp::host {
 
@@ -36,7 +38,10 @@ void kill_orphans(const std::vector<pid_t>& keep) {
     std::erase_if(orphans, [&](pid_t child) { return std::find(keep.begin(), keep.end(), child) != keep.end(); });
     if (orphans.empty()) return;
     for (const pid_t orphan : orphans) kill(orphan, SIGKILL);
-    for (const pid_t orphan : orphans) waitpid(orphan, nullptr, __WALL);
+    // in no order: the first process of a namespace ends only when the others have been waited for
+    while (std::erase_if(orphans, [](pid_t one) { return waitpid(one, nullptr, WNOHANG | __WALL) != 0; }),
+           !orphans.empty())
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
 }
 

@@ -82,7 +82,7 @@ trace() { printf '%s/damaged/traces/trial_%06d.mcap' "$scratch" "$1"; }
 head -c 4000 "$(trace 1)" >"$scratch/short" && mv "$scratch/short" "$(trace 1)"
 printf 'no trace' >"$(trace 2)"
 rm "$(trace 4)"
-printf 'X' | dd of="$(trace 6)" bs=1 seek=3000 conv=notrunc status=none
+printf 'XXXX' | dd of="$(trace 6)" bs=1 seek=3000 conv=notrunc status=none
 expect_status 1 "$host" evaluate "$scratch/damaged" --csv "$some"
 expect_line '^trial 1: .*trial_000001.mcap: ' 4
 expect_line '^trial 2: .*trial_000002.mcap: .*not an MCAP file' 4

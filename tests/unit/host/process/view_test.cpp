@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "host/process/environment.hpp"
+#include "host/process/orphans.hpp"
 
 namespace {
 
@@ -139,6 +140,29 @@ TEST_CASE("a process sees what it was given, and can change nothing but temporar
   CHECK(in_view({"/tmp", "/tmp/*", "/"}, [&] { return attempts(places.root); }) == "temporary null program ");
   CHECK(in_view({}, [] { return std::to_string(getpid()) + " " + fs::current_path().string(); }) == "2 /tmp");
   CHECK(fs::exists(places.root / "hidden/file"));
+}
+
+TEST_CASE("orphans of a namespace are killed, its first process among them") {
+  if (!view::gap().empty()) return;
+  const pid_t judge = fork();
+  if (judge == 0) {
+    adopt_orphans();
+    const pid_t between = fork();
+    if (between == 0) {
+      view::leave({});
+      for (int i = 0; i < 2; ++i)
+        if (fork() == 0)
+          for (;;) pause();
+      _exit(0);
+    }
+    waitpid(between, nullptr, 0);
+    alarm(20);  // it used to wait for the first one for ever
+    kill_orphans({});
+    _exit(waitpid(-1, nullptr, 0) < 0 && errno == ECHILD ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(judge, &status, 0);
+  CHECK(status == 0);
 }
 
 TEST_CASE("a kernel without namespaces is asked once") {
