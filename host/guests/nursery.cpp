@@ -221,6 +221,7 @@ static std::unique_ptr<const Nursery>& kept_nursery() {
 
 void end_own_nursery() {
   kept_nursery().reset();
+  kill_orphans({});  // its keepers
 }
 
 const Nursery& own_nursery() {

@@ -38,6 +38,6 @@ class Nursery {
 
 // That of a command, a program of its own: made when it is needed. Orphans are adopted from then on. Throws MachineError.
 const Nursery& own_nursery();
-void end_own_nursery();
+void end_own_nursery();  // no child of this process is left
 
 }  // namespace dmrp::host
