@@ -16,7 +16,7 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr int most_rounds = 100;  // an orphan can start others while it is being killed
+constexpr int most_rounds = 50'000;  // an orphan can start others while it is being killed
 
 // Of the thread that calls; the host has no other. Empty where the kernel does not say.
 std::vector<pid_t> children() {
@@ -38,10 +38,10 @@ void kill_orphans(const std::vector<pid_t>& keep) {
     std::erase_if(orphans, [&](pid_t child) { return std::find(keep.begin(), keep.end(), child) != keep.end(); });
     if (orphans.empty()) return;
     for (const pid_t orphan : orphans) kill(orphan, SIGKILL);
-    // in no order: the first process of a namespace ends only when the others have been waited for
-    while (std::erase_if(orphans, [](pid_t one) { return waitpid(one, nullptr, WNOHANG | __WALL) != 0; }),
-           !orphans.empty())
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    // for none in particular: the first process of a namespace ends only when the others have been waited for, and these
+    // may become children later
+    for (const pid_t orphan : orphans) waitpid(orphan, nullptr, WNOHANG | __WALL);
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
 }
 
