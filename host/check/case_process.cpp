@@ -47,7 +47,7 @@ void send(const MemoryFile& answer, const nlohmann::json& message) {
   answer.append(message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-// In the guest.
+// Runs in the guest.
 void examine(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
              std::uint64_t seed, CallNote& note, const MemoryFile& answer) {
   const auto progress = [&](const std::string& what) { send(answer, {{"at", what}}); };

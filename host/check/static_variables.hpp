@@ -13,7 +13,7 @@ class StaticVariables {
   // Those of a library that this process has loaded, with their present values.
   explicit StaticVariables(const std::filesystem::path& library);
 
-  // Where in the library bytes have changed since, in order.
+  // Returns where in the library bytes have changed since, in order.
   std::vector<std::uintptr_t> changed() const;
 
  private:

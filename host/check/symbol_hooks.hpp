@@ -15,7 +15,7 @@ class CallGuard;
 inline constexpr std::int64_t clock_leap_ns = 50'000'000;
 void let_clocks_leap();
 
-// From now on clocks of that kind tell this much more.
+// Lets the same clocks tell this much more from now on.
 void let_clocks_be_off(std::int64_t ns);
 
 // What calls of a plugin have allocated since count_allocations().

@@ -28,7 +28,7 @@ class HelpFormatter final : public CLI::Formatter {
 
 unsigned default_jobs();  // one per core
 
-// Of run and verify.
+// The commands run and verify have this flag.
 inline constexpr const char* trust_help = "run plugins of a bundle where the kernel gives them no namespaces";
 
 }  // namespace dmrp::host

@@ -78,6 +78,23 @@ std::string fault_note(const TrialRecord& trial) {
   return trial.faults.empty() ? "" : fault_note(trial.id, trial.faults.front());
 }
 
+// Rows that are there must be those of the experiment, with the plans that are there.
+void check_rows(const ResultsDatabase& database, const Experiment& experiment, const fs::path& directory) {
+  const StoredPlans plans(directory);
+  const std::vector<Combination> all = combinations(experiment);
+  for (const TrialRecord& trial : database.trials_with_events_of("")) {
+    const auto fail = [&](const std::string& why) {
+      throw InputError(fmt::format("--out {}: trial {}: {}", directory.string(), trial.id, why));
+    };
+    if (trial.id >= all.size() * experiment.trials) fail("is none of this experiment");
+    if (trial.outcome == trial_outcome::skipped) continue;
+    if (const std::string why = misplacement(trial, row_of(experiment, trial.id)); !why.empty()) fail(why);
+    const std::string plan = plan_name(all[trial_id(trial.id, all.size()).combination], trial.repetition);
+    if (trial.plan_sha256.empty() || !plans.has(plan)) continue;
+    if (plans.read_call(plan).paths_sha256 != trial.plan_sha256) fail("had another plan than plans/" + plan + ".csv");
+  }
+}
+
 class RunFiles {
  public:
   RunFiles(const RunOptions& options, const Experiment& experiment, Manifest manifest)
@@ -116,6 +133,7 @@ class RunFiles {
     Manifest before = read_manifest(directory() / "manifest.json");
     if (const std::string why = why_not_same(before, manifest); !why.empty())
       throw InputError(fmt::format("--out {}: {}", directory().string(), why));
+    check_rows(ResultsDatabase::open(database()), experiment, directory());
     manifest.started_at = std::move(before.started_at);
     manifest.command_line = std::move(before.command_line);
     describe(experiment, manifest);
@@ -139,23 +157,6 @@ class RunFiles {
 
   RunDirectory directory_;
 };
-
-// Rows that are there must be those of the experiment, with the plans that are there.
-void check_rows(const ResultsDatabase& database, const Experiment& experiment, const fs::path& directory) {
-  const StoredPlans plans(directory);
-  const std::vector<Combination> all = combinations(experiment);
-  for (const TrialRecord& trial : database.trials_with_events_of("")) {
-    const auto fail = [&](const std::string& why) {
-      throw InputError(fmt::format("--out {}: trial {}: {}", directory.string(), trial.id, why));
-    };
-    if (trial.id >= all.size() * experiment.trials) fail("is none of this experiment");
-    if (trial.outcome == trial_outcome::skipped) continue;
-    if (const std::string why = misplacement(trial, row_of(experiment, trial.id)); !why.empty()) fail(why);
-    const std::string plan = plan_name(all[trial_id(trial.id, all.size()).combination], trial.repetition);
-    if (trial.plan_sha256.empty() || !plans.has(plan)) continue;
-    if (plans.read_call(plan).paths_sha256 != trial.plan_sha256) fail("had another plan than plans/" + plan + ".csv");
-  }
-}
 
 // The manifest of the first start, with what only the end of a run can tell.
 void complete_manifest(const fs::path& directory, std::span<const TrialRecord> trials) {
@@ -183,7 +184,6 @@ int run_command(const RunOptions& options) {
   const std::uint64_t in_shard = PlannedTrials(shard.index, shard.count, count, {}).all();
   const RunFiles files(options, experiment, manifest_of(experiment, shard, in_shard, command_line()));
   ResultsDatabase database = ResultsDatabase::open(files.database());
-  if (options.resume) check_rows(database, experiment, files.directory());
   if (options.retry_faults) StoredPlans(files.directory()).delete_faults();
   PlannedTrials trials(shard.index, shard.count, count,
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults

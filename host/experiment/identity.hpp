@@ -15,8 +15,9 @@ namespace dmrp::host {
 inline constexpr int behaviour = 3;
 
 // Each key with its value as TOML text: "simulation.step_s" -> "0.02", "local_controller[1].use" -> "\"dmrp...\"".
-// Scenarios, with the files that they name, and files that parameters name stand by SHA-256, plugins by id and version.
-// So do the environment variables that plugins have (host/process/environment.hpp). Not in it: the name of the experiment and the number of its trials, so that a run can grow; libraries.
+// Scenarios, with the files that they name, and files that parameters name stand by SHA-256, plugins by id and version, and
+// the environment variables that plugins have by their values (host/process/environment.hpp). Not in it: the name of the
+// experiment and the number of its trials, so that a run can grow; libraries; what plugins see beside their own.
 std::map<std::string, std::string> identity_of(const Experiment& experiment);
 
 // SHA-256, hexadecimal.

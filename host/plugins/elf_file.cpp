@@ -156,7 +156,7 @@ class LoadedParts {
     }
   }
 
-  // From a place in the table of strings to the end of its segment.
+  // Returns what lies between a place in the table of strings and the end of its segment.
   std::optional<Range> rest_of_strings(std::uint64_t place) const {
     const std::uint64_t address = strings_ + place;
     for (const Elf64_Phdr& segment : segments_)
@@ -226,7 +226,7 @@ std::string code_digest(const std::filesystem::path& file) {
 
 namespace {
 
-// With the folder of the library in place of $ORIGIN.
+// Puts the folder of the library in the place of $ORIGIN.
 std::filesystem::path expanded(std::string folder, const std::filesystem::path& library) {
   for (const std::string word : {"${ORIGIN}", "$ORIGIN"})
     if (const std::size_t at = folder.find(word); at != std::string::npos)

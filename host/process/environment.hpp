@@ -12,7 +12,7 @@ namespace dmrp::host {
 // DMRP_TEST_*, for tests of plugins. They are part of a run's identity.
 std::vector<std::string> passed_environment();
 
-// From now on this process has the variables above, and fixed values of PATH, LANG, HOME and TMPDIR. `scratch`: the folder
+// Leaves this process the variables above, and gives it fixed values of PATH, LANG, HOME and TMPDIR. `scratch` is the folder
 // for temporary files.
 void reduce_environment(const std::string& scratch);
 

@@ -40,7 +40,7 @@ constexpr std::array system_paths = {
     "/libx32", "/opt", "/nix/store", "/gnu/store", "/etc/ld.so.cache", "/etc/alternatives"};
 constexpr std::array devices = {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom"};
 
-// Of <linux/mount.h>, which older C libraries' <sys/mount.h> excludes.
+// It is that of <linux/mount.h>, which older C libraries' <sys/mount.h> excludes.
 struct MountAttributes {
   std::uint64_t set = 0;
   std::uint64_t clear = 0;
