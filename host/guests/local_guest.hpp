@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// local_guest.hpp: a guest in this process, for debuggers and tests: nothing protects one from the other.
+// local_guest.hpp: a guest in this process, for debuggers and tests. A plugin that writes into what it may only read crashes
+// there; nothing else protects one from the other.
 #pragma once
 
 #include "host/guests/guest.hpp"
@@ -17,6 +18,8 @@ class LocalGuest : public Guest {
 
  private:
   std::string_view send(const GuestRequest& request, const AnswerQuestion& answer, std::string_view text) override;
+
+  void let_write(bool allowed);  // into what is sent
 
   const AnswerQuestion* answer_ = nullptr;  // of the request that runs
   std::string answer_text_;

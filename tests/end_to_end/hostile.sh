@@ -172,6 +172,13 @@ if $limited && $has_namespaces; then
   run_with_faults visible 1
 fi
 
+# a debugger stops where a plugin writes into what it may only read
+if $limited; then
+  begin debugged
+  hostile debugged "writes into the world"
+  expect_status 139 "$host" "$scratch/debugged.toml" --debug 1
+fi
+
 # what reaches others by a way around those calls fails; it has a terminal here, into which it could type
 reaching=("looks into others" "sends signals by a file" "types into the terminal" "asks for rings and segments")
 if $limited; then
