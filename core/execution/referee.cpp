@@ -66,7 +66,7 @@ Referee::Referee(World& world, const PlanningGrids& grids, Settings settings, st
     robots_[i].pose = robots_[i].still_pose = world_.robots()[i].pose;
     if (!is_active(i)) continue;
     begin_goal(i);
-    changes_.push_back({DMRP_CALL_CLASS, i, DMRP_CLASS_MOVING, DMRP_NOBODY, 0});
+    changes_.push_back({DMRP_ROBOT_EVENT_CLASS, i, world_.t_ns(), DMRP_CLASS_MOVING, DMRP_NOBODY});
   }
   judge_arrivals(std::vector<CoursePlace>(robots_.size()));
 }
@@ -144,8 +144,8 @@ void Referee::judge_progress(std::span<const CoursePlace> courses) {
     it.was_moving_freely = moves_freely;
     it.circled = it.circled || verdict.circles;
     if (verdict != it.verdict) {
-      const auto status = static_cast<std::int32_t>(verdict.kind | (verdict.circles ? DMRP_CLASS_CIRCLING : 0u));
-      changes_.push_back({DMRP_CALL_CLASS, i, status, verdict.other, 0});
+      const std::uint32_t detail = verdict.kind | (verdict.circles ? DMRP_CLASS_CIRCLING : 0u);
+      changes_.push_back({DMRP_ROBOT_EVENT_CLASS, i, world_.t_ns(), detail, verdict.other});
     }
     it.verdict = verdict;
   }

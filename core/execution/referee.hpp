@@ -5,7 +5,7 @@
 // the changes of class in the trace).
 #pragma once
 
-#include <dmrp/referee.h>
+#include <dmrp/robot_event.h>
 #include <dmrp/sample.h>
 #include <dmrp/trial_end.h>
 
@@ -92,8 +92,8 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
-  // Changes of class since the last call, the first of all robots, as records of the trace (dmrp/referee.h).
-  std::vector<dmrp_call> take_changes() { return std::exchange(changes_, {}); }
+  // Changes of class since the last call, the first of all robots, as events of the trace (dmrp/robot_event.h).
+  std::vector<dmrp_robot_event> take_changes() { return std::exchange(changes_, {}); }
 
   // The outcome of every robot at the end of the trial.
   std::vector<dmrp_robot_end> robot_ends(std::uint32_t ending) const;
@@ -151,7 +151,7 @@ class Referee {
   GoalDistancesCache distances_;
   std::vector<Watched> robots_;
   std::vector<double> gained_m_;
-  std::vector<dmrp_call> changes_;
+  std::vector<dmrp_robot_event> changes_;
   std::map<std::uint64_t, dmrp_vec2> people_;  // where each was when it last moved least_progress_m, by id
   std::int64_t still_since_ns_ = 0;
   bool continues_ = false;  // at a fixed point too

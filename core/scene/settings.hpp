@@ -3,7 +3,7 @@
 // The defaults are those of the benchmark's method.
 #pragma once
 
-#include <dmrp/recovery.h>
+#include <dmrp/robot_event.h>
 #include <dmrp/robot.h>
 
 #include <array>

@@ -10,8 +10,7 @@ namespace {
 template <class Content>
 TraceBytes written_again(RecordCursor& in, TraceRecordKind kind) {
   TraceStorage storage;
-  auto content = read_fields<Content>(in, &storage);
-  if constexpr (Of<Content, TraceWorld>) content.format_version = 1;
+  const auto content = read_fields<Content>(in, &storage);
   TraceBytes bytes;
   write_record(bytes, kind, content, TraceForm::canonical, 0);
   return bytes;
@@ -19,14 +18,14 @@ TraceBytes written_again(RecordCursor& in, TraceRecordKind kind) {
 
 }  // namespace
 
-TraceBytes CanonicalRecords::next(std::span<const std::uint8_t> record) {
+TraceBytes canonical_record(std::span<const std::uint8_t> record) {
   ByteCursor prefix(record);
   const auto body_bytes = prefix.take<std::uint32_t>();
   const auto kind = prefix.take<TraceRecordKind>();
   if (body_bytes != prefix.rest().size()) prefix.fail("a message that is not one record");
-  if (kind == TraceRecordKind::world) version_ = ByteCursor(prefix).take<std::uint32_t>();
-  if (version_ == 0 || version_ > trace_format_version) prefix.fail("a format version that is not known");
-  RecordCursor body(prefix.rest(), prefix.position(), version_);
+  if (kind == TraceRecordKind::world && ByteCursor(prefix).take<std::uint32_t>() != trace_format_version)
+    prefix.fail("a format version that is not known");
+  RecordCursor body(prefix.rest(), prefix.position());
   switch (kind) {
     case TraceRecordKind::world:
       return written_again<TraceWorld>(body, kind);

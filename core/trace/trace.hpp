@@ -9,17 +9,18 @@
 // little-endian, unaligned; doubles keep their bits. The trace is the concatenation of its records; in a file each
 // record is one message of the channel `dmrp/trace` (mcap_writer.hpp).
 //
-// The body of a world begins with the format version. Version 2 grows as the plugin contract does (abi.h):
+// The body of a world begins with the format version. The format grows as the plugin contract does (abi.h):
 //
 //   growable struct               a block: u32 length · its fields in order. A body is a block too
 //   array of elements             u32 count · u32 stride · the elements as in memory
 //   ... that point to something   u32 count · each element as a block
 //
-// New fields are appended to a block or an element. A reader takes those that are missing as zero (the culprit of a
-// robot's end as DMRP_NOBODY) and skips those that it does not know. A new kind of record or any other change of the layout makes a new format version.
+// New fields are appended to a block or an element. A reader takes an element's missing fields as the contract's absent
+// values and skips those that it does not know. A new kind of record or any other change of the layout makes a new
+// format version; this program reads one version alone.
 //
-// Version 1, of the contract's first draft, is read too. It has neither strides nor lengths of structs; people of 112
-// bytes, waypoints without `reserved`, calls without `other`, footprints of one polygon, and a second grid after the planning grid.
+// A route, which continues the one before of its robot, is stored as what differs: how many waypoints it keeps, and those
+// that follow.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@
 
 namespace dmrp::core {
 
-inline constexpr std::uint32_t trace_format_version = 2;
+inline constexpr std::uint32_t trace_format_version = 3;
 inline constexpr const char* trace_topic = "dmrp/trace";  // of the channel in a file
 
 enum class TraceRecordKind : std::uint8_t {

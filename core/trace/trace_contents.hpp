@@ -27,9 +27,23 @@ struct TracePlan {
   std::uint32_t conflicts = 0;  // between robots
 };
 
+// What a robot was handed to follow: the first `kept` waypoints of what it had, and these.
+struct TraceRoute {
+  std::uint32_t robot = 0;
+  std::uint32_t update_flags = 0;
+  std::uint32_t path_flags = 0;
+  std::uint32_t kept = 0;
+  std::uint32_t count = 0;
+  std::uint32_t stride = sizeof(dmrp_waypoint);
+  const dmrp_waypoint* waypoints = nullptr;
+};
+
 struct TraceSample {
-  dmrp_sample sample{};             // its plan is not stored
+  dmrp_sample sample{};             // its plan and routes are not stored
   std::uint64_t plan_revision = 0;  // 0: there is no plan
+  const TraceRoute* routes = nullptr;
+  std::uint32_t route_count = 0;
+  std::uint32_t route_stride = sizeof(TraceRoute);
 };
 
 // Beam i points at angle_min + i * angle_increment from the robot's heading.

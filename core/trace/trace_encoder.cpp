@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_encoder.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <utility>
 
 #include "core/trace/trace_field_writer.hpp"
@@ -16,7 +18,7 @@ void TraceEncoder::record(TraceRecordKind kind, const Content& content) {
 }
 
 TraceEncoder::TraceEncoder(const dmrp_world& world, RecordSink sink, FoxgloveChannels* foxglove)
-    : sink_(std::move(sink)), foxglove_(foxglove) {
+    : sink_(std::move(sink)), foxglove_(foxglove), routes_(world.robot_count) {
   assert(sink_);
   record(TraceRecordKind::world, TraceWorld{trace_format_version, world});
   if (foxglove_) foxglove_->world(world);
@@ -31,7 +33,29 @@ void TraceEncoder::sample(const dmrp_sample& sample) {
   assert(sample.t_ns >= now_ns_);
   now_ns_ = sample.t_ns;
   if (foxglove_) foxglove_->sample(sample);
-  record(TraceRecordKind::sample, TraceSample{sample, sample.plan ? sample.plan->revision : 0});
+  const std::vector<TraceRoute> routes = shortened(sample);
+  record(TraceRecordKind::sample, TraceSample{sample, sample.plan ? sample.plan->revision : 0, routes.data(),
+                                              static_cast<std::uint32_t>(routes.size())});
+}
+
+// The sample's routes without the waypoints that each has in common with its robot's last one. Valid until the next call.
+std::vector<TraceRoute> TraceEncoder::shortened(const dmrp_sample& sample) {
+  std::vector<TraceRoute> routes;
+  for (std::uint32_t i = 0; i < sample.route_count; ++i) {
+    const dmrp_route& route = *DMRP_AT(dmrp_route, sample.routes, sample.route_stride, i);
+    std::vector<dmrp_waypoint>& last = routes_[route.robot];
+    const auto waypoint = [&](std::size_t k) -> const dmrp_waypoint& {
+      return *DMRP_AT(dmrp_waypoint, route.path->waypoints, route.path->stride, k);
+    };
+    std::size_t kept = 0;
+    const std::size_t most = std::min<std::size_t>(last.size(), route.path->count);
+    while (kept < most && std::memcmp(&last[kept], &waypoint(kept), sizeof(dmrp_waypoint)) == 0) ++kept;
+    last.resize(kept);
+    for (std::size_t k = kept; k < route.path->count; ++k) last.push_back(waypoint(k));
+    routes.push_back({route.robot, route.flags, route.path->flags, static_cast<std::uint32_t>(kept),
+                      static_cast<std::uint32_t>(last.size() - kept), sizeof(dmrp_waypoint), last.data() + kept});
+  }
+  return routes;
 }
 
 void TraceEncoder::scan(std::uint32_t robot, const dmrp_scan& scan) {

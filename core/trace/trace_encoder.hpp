@@ -11,9 +11,11 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/foxglove/foxglove_channels.hpp"
 #include "core/trace/trace.hpp"
+#include "core/trace/trace_contents.hpp"
 
 namespace dmrp::core {
 
@@ -53,12 +55,14 @@ class TraceEncoder {
  private:
   template <class Content>
   void record(TraceRecordKind kind, const Content& content);
+  std::vector<TraceRoute> shortened(const dmrp_sample& sample);
 
   TraceBytes record_;  // the current one
   std::size_t written_bytes_ = 0;
   RecordSink sink_;
   FoxgloveChannels* foxglove_;
-  std::int64_t now_ns_ = 0;  // of the last sample
+  std::int64_t now_ns_ = 0;                         // of the last sample
+  std::vector<std::vector<dmrp_waypoint>> routes_;  // the last of each robot
 };
 
 }  // namespace dmrp::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace_field_reader.hpp: reads the fields of records of either format version (trace_layout.hpp). Internal to traces.
+// trace_field_reader.hpp: reads the fields of records (trace_layout.hpp). Internal to traces.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +34,14 @@ template <>
 inline constexpr std::size_t least_trace_bytes<dmrp_path> = 4;
 template <>
 inline constexpr std::size_t least_trace_bytes<dmrp_statistic> = 12;
+template <>
+inline constexpr std::size_t least_trace_bytes<TraceRoute> = 16 + 8;
 
 // All functions throw TraceError.
 class TraceFieldReader {
  public:
   // Without a storage it passes over arrays and texts, which stay empty; for records that have no structs in arrays.
   TraceFieldReader(RecordCursor& in, TraceStorage* storage) : in_(in), storage_(storage) {}
-
-  std::uint32_t version() const { return in_.version(); }
 
   template <class... Values>
   void values(Values&... values) {
@@ -60,12 +60,6 @@ class TraceFieldReader {
     const char* copy = "";
     text(copy);
     to = copy;
-  }
-
-  // Empty in format version 1.
-  void text_since_2(const char*& to) {
-    to = "";
-    if (version() > 1) text(to);
   }
 
   template <class Value>
@@ -91,11 +85,10 @@ class TraceFieldReader {
   // beyond ours are skipped.
   template <class Element>
   void elements(const Element*& to, std::uint32_t& count, std::uint32_t& to_stride) {
-    constexpr TraceElementSize size = trace_element_size<Element>;
     count = in_.take<std::uint32_t>();
     to_stride = sizeof(Element);
-    const std::size_t stride = version() == 1 ? size.format_1 : in_.take<std::uint32_t>();
-    if (version() > 1 && stride < size.least) in_.fail("elements shorter than those of version 1.0 of the contract");
+    const std::size_t stride = in_.take<std::uint32_t>();
+    if (stride < least_element_bytes<Element>) in_.fail("elements shorter than those of version 1.0 of the contract");
     in_.require(count, stride);
     auto* elements = allocate<Element>(count);
     to = elements;
@@ -120,17 +113,6 @@ class TraceFieldReader {
     Struct* made = allocate<Struct>(count);
     to = made;
     for (std::uint32_t i = 0; i < count; ++i) block(made[i]);
-  }
-
-  // Format version 1 has one polygon, without vertices for a disc.
-  void parts(dmrp_footprint& footprint) {
-    if (version() > 1) return structs(footprint.parts, footprint.part_count, footprint.part_stride);
-    pointer(footprint.parts);
-    footprint.part_stride = sizeof(dmrp_polygon);
-    footprint.part_count = 1;
-    if (footprint.parts->vertex_count > 0) return;
-    footprint.parts = nullptr;
-    footprint.part_count = 0;
   }
 
  private:
@@ -159,11 +141,6 @@ class TraceFieldReader {
   void take_element(std::size_t stride, Element& to) {
     to = absent_fields<Element>;
     std::memcpy(&to, in_.take_bytes(stride).data(), std::min(stride, sizeof(Element)));
-  }
-  // Calls of format version 1 have no `other` before the duration.
-  void take_element(std::size_t stride, dmrp_call& to) {
-    if (version() > 1) return take_element<dmrp_call>(stride, to);
-    values(to.kind, to.robot, to.status, to.duration_ns);
   }
 
   bool is_present() {

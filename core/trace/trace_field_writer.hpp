@@ -20,23 +20,16 @@ enum class TraceForm { current, canonical };
 
 class TraceFieldWriter {
  public:
-  TraceFieldWriter(TraceBytes& bytes, TraceForm form)
-      : out_(bytes), version_(form == TraceForm::canonical ? 1 : trace_format_version) {}
-
-  std::uint32_t version() const { return version_; }
+  TraceFieldWriter(TraceBytes& bytes, TraceForm form) : out_(bytes), form_(form) {}
 
   template <class... Values>
   void values(const Values&... values) {
     (out_.put(values), ...);
   }
 
-  void clock_time(std::int64_t ns) { out_.put(version_ == 1 ? std::int64_t{0} : ns); }
+  void clock_time(std::int64_t ns) { out_.put(form_ == TraceForm::canonical ? std::int64_t{0} : ns); }
   void text(std::string_view text) { out_.put_text(text); }
   void text(const char* text) { out_.put_text(text ? std::string_view(text) : std::string_view()); }
-
-  void text_since_2(const char* since_2) {
-    if (version_ > 1) text(since_2);
-  }
 
   template <class Value>
   void array(const Value* values, std::uint32_t count) {
@@ -57,26 +50,24 @@ class TraceFieldWriter {
   // Elements that are stored as in memory: all at once, unless the owner's version of them is longer.
   template <class Element>
   void elements(const Element* elements, std::uint32_t count, std::uint32_t stride) {
-    const std::size_t bytes = version_ == 1 ? trace_element_size<Element>.format_1 : sizeof(Element);
     out_.put(count);
-    if (version_ > 1) out_.put(static_cast<std::uint32_t>(bytes));
-    if (stride == bytes) return out_.put_array(elements, count);
-    for (std::uint32_t i = 0; i < count; ++i)
-      out_.put_array(reinterpret_cast<const std::uint8_t*>(DMRP_AT(Element, elements, stride, i)), bytes);
+    out_.put(static_cast<std::uint32_t>(sizeof(Element)));
+    if (stride == sizeof(Element)) return out_.put_array(elements, count);
+    for (std::uint32_t i = 0; i < count; ++i) out_.put_array(DMRP_AT(Element, elements, stride, i), 1);
   }
   void elements(const dmrp_call* calls, std::uint32_t count, std::uint32_t stride) {
-    if (version_ > 1) return elements<dmrp_call>(calls, count, stride);
+    if (form_ == TraceForm::current) return elements<dmrp_call>(calls, count, stride);
     out_.put(count);
+    out_.put(static_cast<std::uint32_t>(sizeof(dmrp_call)));
     for (std::uint32_t i = 0; i < count; ++i) {
-      const dmrp_call& call = *DMRP_AT(dmrp_call, calls, stride, i);
-      values(call.kind, call.robot, call.status);
-      clock_time(call.duration_ns);
+      dmrp_call call = *DMRP_AT(dmrp_call, calls, stride, i);
+      call.duration_ns = 0;
+      out_.put_array(&call, 1);
     }
   }
 
   template <class Struct>
   void pointer(const Struct* content) {
-    if (version_ == 1) return fields(*this, *content);
     out_.put_block([&] { fields(*this, *content); });
   }
   template <class Struct>
@@ -90,17 +81,9 @@ class TraceFieldWriter {
     for (std::uint32_t i = 0; i < count; ++i) pointer(DMRP_AT(Struct, content, stride, i));
   }
 
-  // In the canonical form without their number; a disc has one without vertices.
-  void parts(const dmrp_footprint& footprint) {
-    if (version_ > 1) return structs(footprint.parts, footprint.part_count, footprint.part_stride);
-    if (footprint.part_count == 0) out_.put(std::uint32_t{0});
-    for (std::uint32_t i = 0; i < footprint.part_count; ++i)
-      pointer(DMRP_AT(dmrp_polygon, footprint.parts, footprint.part_stride, i));
-  }
-
  private:
   ByteWriter out_;
-  std::uint32_t version_;
+  TraceForm form_;
 };
 
 // Replaces `bytes` by a whole record, with its length and kind. `offset`: of the record in the trace, for errors.

@@ -21,8 +21,8 @@ template <class Type, class Struct>
 concept Of = std::same_as<std::remove_const_t<Type>, Struct>;
 
 void fields(auto& io, Of<dmrp_limits> auto& limits) {
-  io.values(limits.v_min, limits.v_max, limits.v_y_max, limits.omega_max, limits.a_max, limits.alpha_max);
-  if (io.version() > 1) io.values(limits.wheelbase_m, limits.steering_max, limits.steering_rate_max);
+  io.values(limits.v_min, limits.v_max, limits.v_y_max, limits.omega_max, limits.a_max, limits.alpha_max,
+            limits.wheelbase_m, limits.steering_max, limits.steering_rate_max);
 }
 
 void fields(auto& io, Of<dmrp_polygon> auto& polygon) {
@@ -31,16 +31,16 @@ void fields(auto& io, Of<dmrp_polygon> auto& polygon) {
 
 void fields(auto& io, Of<dmrp_footprint> auto& footprint) {
   io.values(footprint.radius_m, footprint.inscribed_radius_m);
-  io.parts(footprint);
+  io.structs(footprint.parts, footprint.part_count, footprint.part_stride);
 }
 
 void fields(auto& io, Of<dmrp_robot> auto& robot) {
   io.text(robot.name);
+  io.text(robot.type);
   io.values(robot.kinematics, robot.start);
   io.pointer(robot.limits);
   io.pointer(robot.footprint);
   io.elements(robot.goals, robot.goal_count, robot.goal_stride);
-  io.text_since_2(robot.type);
 }
 
 void fields(auto& io, Of<dmrp_shape> auto& shape) {
@@ -55,21 +55,27 @@ void fields(auto& io, Of<dmrp_grid> auto& grid) {
   io.optional_array(grid.free, cells);
   io.optional_array(grid.edges, cells);
   io.optional_array(grid.clearance, cells);
+  io.optional_array(grid.edge_cost, 8 * cells);
 }
 
 void fields(auto& io, Of<TraceWorld> auto& content) {
   auto& world = content.world;
   io.values(content.format_version, world.person_count, world.lower, world.upper, world.step_ns,
-            world.control_period_ns, world.time_limit_ns, world.call_budget_ns);
+            world.control_period_ns, world.time_limit_ns, world.call_budget_ns, world.person_radius_m);
   io.structs(world.robots, world.robot_count, world.robot_stride);
   io.structs(world.shapes, world.shape_count, world.shape_stride);
   io.array(world.segments, world.segment_count);
   io.optional_pointer(world.planning_grid);
-  if (io.version() > 1) io.values(world.person_radius_m);
 }
 
 void fields(auto& io, Of<dmrp_path> auto& path) {
+  io.values(path.flags);
   io.elements(path.waypoints, path.count, path.stride);
+}
+
+void fields(auto& io, Of<TraceRoute> auto& route) {
+  io.values(route.robot, route.update_flags, route.path_flags, route.kept);
+  io.elements(route.waypoints, route.count, route.stride);
 }
 
 void fields(auto& io, Of<dmrp_statistic> auto& statistic) {
@@ -81,6 +87,7 @@ void fields(auto& io, Of<TracePlan> auto& content) {
   auto& plan = content.plan;
   io.values(content.made_at_ns, plan.revision, plan.from_ns, plan.step_duration_ns);
   io.clock_time(plan.planning_ns);
+  io.clock_time(plan.processor_ns);
   io.values(plan.status, content.conflicts);
   io.structs(plan.paths, plan.path_count, plan.path_stride);
   io.structs(plan.statistics, plan.statistic_count, plan.statistic_stride);
@@ -94,6 +101,9 @@ void fields(auto& io, Of<TraceSample> auto& content) {
   io.elements(sample.people, sample.person_count, sample.person_stride);
   io.elements(sample.contacts, sample.contact_count, sample.contact_stride);
   io.elements(sample.calls, sample.call_count, sample.call_stride);
+  io.elements(sample.events, sample.event_count, sample.event_stride);
+  io.structs(content.routes, content.route_count, content.route_stride);
+  io.elements(sample.task_events, sample.task_event_count, sample.task_event_stride);
 }
 
 void fields(auto& io, Of<TraceScan> auto& scan) {

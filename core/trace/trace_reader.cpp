@@ -23,12 +23,11 @@ void check_contact(const ByteCursor& in, const dmrp_contact& contact, const dmrp
   if (contact.a >= world.robot_count || contact.b >= others) in.fail("a contact of unknown bodies");
 }
 
-std::uint32_t format_version(const TraceRecord& world) {
+void check_version(const TraceRecord& world) {
   const auto version = ByteCursor(world.body, world.offset).take<std::uint32_t>();
-  if (version == 0 || version > trace_format_version)
-    throw TraceError(world.offset, "format version " + std::to_string(version) + "; this program reads versions 1 to " +
-                                       std::to_string(trace_format_version));
-  return version;
+  if (version != trace_format_version)
+    throw TraceError(world.offset, "format version " + std::to_string(version) + "; this program reads version " +
+                                       std::to_string(trace_format_version) + ": run the experiment again");
 }
 
 }  // namespace
@@ -48,8 +47,8 @@ TraceReader::TraceReader(TraceRecords records, TraceExtent extent) : records_(st
 }
 
 void TraceReader::read_record(const TraceRecord& record) {
-  if (record.kind == TraceRecordKind::world) version_ = format_version(record);
-  RecordCursor in(record.body, record.offset, version_);
+  if (record.kind == TraceRecordKind::world) check_version(record);
+  RecordCursor in(record.body, record.offset);
   switch (record.kind) {
     case TraceRecordKind::world:
       read_world(in);
@@ -86,15 +85,12 @@ void TraceReader::read_record(const TraceRecord& record) {
     default:
       throw TraceError(record.offset - 1, "the kind of the record is unknown");
   }
-  if (version_ == 1 && !in.at_end()) in.fail("the record is longer than its content");
 }
 
 void TraceReader::read_world(RecordCursor& in) {
   world_ = read_fields<TraceWorld>(in, &storage_).world;
   world_.struct_size = sizeof(dmrp_world);
-  if (version_ > 1) return;
-  const dmrp_grid* for_people = nullptr;  // of the format's first version
-  TraceFieldReader(in, &storage_).optional_pointer(for_people);
+  waypoints_.resize(world_.robot_count);
 }
 
 void TraceReader::read_plan(RecordCursor& in) {
@@ -133,13 +129,40 @@ void TraceReader::read_sample(RecordCursor& in) {
   sample_.contacts = contacts_.data();
   sample_.contact_count = static_cast<std::uint32_t>(contacts_.size());
   for (const dmrp_call& call : std::span(sample_.calls, sample_.call_count))
-    if (call.kind == DMRP_CALL_CONTROL && call.robot >= world_.robot_count) in.fail("a call for an unknown robot");
+    if (call.robot >= world_.robot_count && call.robot != DMRP_ALL_ROBOTS) in.fail("a call for an unknown robot");
+  for (const dmrp_robot_event& event : std::span(sample_.events, sample_.event_count))
+    if (event.robot >= world_.robot_count) in.fail("an event of an unknown robot");
+  read_routes(in, read);
+}
+
+void TraceReader::read_routes(RecordCursor& in, const TraceSample& read) {
+  paths_.clear();
+  routes_.clear();
+  paths_.reserve(read.route_count);
+  for (const TraceRoute& route : std::span(read.routes, read.route_count)) {
+    if (route.robot >= world_.robot_count) in.fail("a route of an unknown robot");
+    std::vector<dmrp_waypoint>& waypoints = waypoints_[route.robot];
+    if (route.kept > waypoints.size()) in.fail("a route that keeps more than there was");
+    waypoints.resize(route.kept);
+    waypoints.insert(waypoints.end(), route.waypoints, route.waypoints + route.count);
+    paths_.push_back({sizeof(dmrp_path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint),
+                      route.path_flags, waypoints.data()});
+    routes_.push_back({route.robot, route.update_flags, &paths_.back()});
+  }
+  sample_.routes = routes_.data();
+  sample_.route_count = static_cast<std::uint32_t>(routes_.size());
+  sample_.route_stride = sizeof(dmrp_route);
+}
+
+void TraceReader::rewind() {
+  records_.rewind();
+  for (auto& waypoints : waypoints_) waypoints.clear();
 }
 
 const dmrp_sample* TraceReader::next_sample() {
   while (const auto record = records_.next()) {
     if (record->kind != TraceRecordKind::sample) continue;
-    RecordCursor in(record->body, record->offset, version_);
+    RecordCursor in(record->body, record->offset);
     read_sample(in);
     return &sample_;
   }

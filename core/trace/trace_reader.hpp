@@ -48,7 +48,7 @@ class TraceReader {
 
   std::size_t sample_count() const { return sample_count_; }
   const dmrp_sample* next_sample();  // null after the last; valid until the next call
-  void rewind() { records_.rewind(); }
+  void rewind();
 
   const dmrp_trial_end* end() const { return ended_ ? &end_ : nullptr; }  // null if the trial was interrupted
   std::string_view reason() const { return reason_; }
@@ -62,13 +62,13 @@ class TraceReader {
   void read_world(RecordCursor& in);
   void read_plan(RecordCursor& in);
   void read_sample(RecordCursor& in);
+  void read_routes(RecordCursor& in, const TraceSample& read);
   template <class Annotation>
   void read_annotation(RecordCursor& in, std::vector<Annotation>& annotations);
   const dmrp_plan* plan_of_revision(std::uint64_t revision) const;
 
   TraceRecords records_;
   TraceExtent extent_;
-  std::uint32_t version_ = 0;                    // of the format
   std::pmr::monotonic_buffer_resource storage_;  // of everything that is valid as long as the reader
   dmrp_world world_{};
   std::deque<TracePlan> plans_;
@@ -83,6 +83,9 @@ class TraceReader {
   dmrp_sample sample_{};
   std::pmr::monotonic_buffer_resource sample_storage_{std::size_t{1} << 16};
   std::vector<dmrp_contact> contacts_;  // of the sample: those of known kinds
+  std::vector<std::vector<dmrp_waypoint>> waypoints_;  // of each robot's last route
+  std::vector<dmrp_path> paths_;                       // of the sample's routes
+  std::vector<dmrp_route> routes_;
 };
 
 }  // namespace dmrp::core

@@ -440,7 +440,7 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   if (!out->self) return DMRP_OUT_OF_MEMORY;
   out->self->host = host;  // valid until destroy() returns
   out->self->orders = DMRP_AT(dmrp_param_value, values->values, values->stride, 0)->integer;
-  out->interface_ = &planner;
+  out->table = &planner;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;

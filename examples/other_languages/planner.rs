@@ -372,9 +372,9 @@ static DESCRIPTOR: Shared<dmrp_descriptor> = Shared(dmrp_descriptor {
     license: text(b"MIT\0"),
     summary: text(b"robots plan one after the other, around the paths of those before them\0"),
     source: text(b"Erdmann, Lozano-Perez: On multiple moving objects, Algorithmica 2 (1987)\0"),
-    requires_: std::ptr::null(),
+    needed: std::ptr::null(),
     uses: std::ptr::null(),
-    requires_count: 0,
+    needed_count: 0,
     uses_count: 0,
     params: PARAMETERS.0.as_ptr(),
     param_count: 1,
@@ -457,7 +457,7 @@ unsafe extern "C" fn create(
     }
     let orders = at((*params).values, (*params).stride, 0).integer;
     (*out).self_ = Box::into_raw(Box::new(Planner { host, orders })) as *mut dmrp_instance;
-    (*out).interface_ = &INTERFACE as *const dmrp_global_planner as *const c_void;
+    (*out).table = &INTERFACE as *const dmrp_global_planner as *const c_void;
     (*out).start = Some(start);
     (*out).destroy = Some(destroy);
     DMRP_OK

@@ -111,9 +111,9 @@ void extensions(Examination& it) {
 
 void is_static(Examination& it) {
   const auto read = [&] {
-    const dmrp_entry& entry = it.library().entry();
-    for (std::uint32_t i = 0; i < entry.plugin_count(); ++i)
-      if (const dmrp_descriptor* c = entry.descriptor(i); c && c->id && c->id == it.plugin().id)
+    const Library& library = it.library();
+    for (std::uint32_t i = 0; i < library.plugin_count(); ++i)
+      if (const dmrp_descriptor* c = library.descriptor(i); c && c->id && c->id == it.plugin().id)
         return nlohmann::json(copy_descriptor(*c));
     return nlohmann::json();
   };
@@ -145,7 +145,7 @@ std::span<const CheckCase> descriptor_check_cases() {
       {"descriptor/flags", for_all, descriptor_cases::flags,
        "descriptor.h: flags, values and connectivity belong to kinds of plugin", "leave 0 what is not of this kind"},
       {"descriptor/extensions", for_all, descriptor_cases::extensions,
-       "descriptor.h: requires_ and uses list extensions by id",
+       "descriptor.h: needed and uses list extensions by id",
        "spell ids as the headers in dmrp/ext do, and require only what this host offers to this kind"},
       {"descriptor/static", for_all, descriptor_cases::is_static, "descriptor.h: static data, readable before init()",
        "do not change it at run time"},

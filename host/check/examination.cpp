@@ -30,14 +30,14 @@ void Examination::init() {
       "library", library_->file().string(), std::vector<std::string>(), guard_,
       [this](std::int32_t level, const std::string&, const std::string& text) { log(level, text); });
   guard_.call(host_->c(), {"library", "init"}, init_budget_ns, Answers::no_other,
-              [&] { return library_->entry().init(host_->c()); });
+              [&] { return library_->init(host_->c()); });
 }
 
 void Examination::deinit() {
   if (!host_) return;
   const std::unique_ptr<PluginHost> host = std::exchange(host_, nullptr);
   guard_.call(host->c(), {"library", "deinit"}, init_budget_ns, Answers::no_other,
-              [&] { return library_->entry().deinit(), DMRP_OK; });
+              [&] { return library_->deinit(), DMRP_OK; });
 }
 
 std::vector<ParameterValue> Examination::defaults() const {

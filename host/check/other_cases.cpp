@@ -96,10 +96,10 @@ std::span<const CheckCase> other_check_cases() {
        "free in destroy() what the instance allocated (docs/debugging.md finds the place)"},
       {"extensions/undeclared", for_all, extension_cases::undeclared,
        "host.h: get_extension() gives NULL for what the descriptor does not declare",
-       "list the extension in uses or requires_"},
+       "list the extension in uses or needed"},
       {"extensions/not_offered", for_all, extension_cases::not_offered,
        "descriptor.h: uses lists extensions that it uses when available",
-       "test the pointer for NULL, or list the extension in requires_"},
+       "test the pointer for NULL, or list the extension in needed"},
       {"extensions/own_getter", for_all, extension_cases::own_getter,
        "plugin.h: get_extension() is an extension of the plugin by its id, or NULL", "return NULL for any other id"},
   };

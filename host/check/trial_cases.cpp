@@ -229,9 +229,9 @@ constexpr std::uint32_t grown_bytes = 24;
 
 // What lies beyond this host's fields has a meaning for a plugin of a later minor version.
 void skip_if_newer(Examination& it) {
-  const dmrp_entry& entry = it.library().entry();
-  if (entry.abi_minor > DMRP_ABI_MINOR)
-    throw Skipped{fmt::format("it is of version 1.{}, and this host of 1.{}", entry.abi_minor, DMRP_ABI_MINOR)};
+  const std::uint32_t minor = it.library().abi_minor();
+  if (minor > DMRP_ABI_MINOR)
+    throw Skipped{fmt::format("it is of version 1.{}, and this host of 1.{}", minor, DMRP_ABI_MINOR)};
 }
 
 }  // namespace
@@ -300,7 +300,7 @@ std::span<const CheckCase> trial_check_cases() {
       {"determinism/leaping_clocks", for_all, determinism_cases::leaping_clocks,
        "abi.h: results do not depend on clocks",
        "bound the work by counts, not by time; ask should_stop() for the limit of time; a plugin that cannot says so "
-       "with draft/timing.h"},
+       "with ext/timing.h"},
       {"determinism/long_trial", for_controllers | for_people, determinism_cases::long_trial,
        "plugin.h: the same seed gives the same results, to the bit",
        "draw from dmrp/toolkit/random.hpp with the seed of start(); keep nothing in thread_local or static variables"},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/commands/plugins_json.hpp"
 
-#include <dmrp/recovery.h>
+#include <dmrp/robot_event.h>
 #include <fmt/format.h>
 
 #include <cmath>

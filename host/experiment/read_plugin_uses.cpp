@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/experiment/read_plugin_uses.hpp"
 
-#include <dmrp/recovery.h>
+#include <dmrp/robot_event.h>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -96,6 +96,8 @@ std::string unknown_part(const PluginInfo& info) {
   if (info.kind == DMRP_KIND_GLOBAL_PLANNER && info.connectivity != DMRP_CONNECTIVITY_NONE &&
       !is_planned_connectivity(info.connectivity))
     return fmt::format("plans with connectivity {}", info.connectivity);
+  if (const std::uint32_t needed = info.flags & DMRP_FLAGS_NEEDED)
+    return fmt::format("has the flags {:#x}, which must be understood,", needed);
   for (const ParameterSpec& spec : info.parameters)
     if (spec.fallback.type > DMRP_PARAM_STRING_ARRAY)
       return fmt::format("has parameter '{}' of type {}", escaped(spec.fallback.key.c_str()), spec.fallback.type);

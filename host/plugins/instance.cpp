@@ -21,7 +21,8 @@ std::vector<std::string> declared_extensions(const PluginInfo& info) {
 }
 
 // The first function that a kind's table lacks; "" if it is whole.
-std::string missing_function(const dmrp_global_planner& table, const PluginInfo&) {
+std::string missing_function(const dmrp_global_planner& table, const PluginInfo& info) {
+  if (info.has_flag(DMRP_FLAG_ASSIGNS) && !table.assign) return "assign (its descriptor has DMRP_FLAG_ASSIGNS)";
   return table.plan ? "" : "plan";
 }
 std::string missing_function(const dmrp_local_controller& table, const PluginInfo& info) {
@@ -40,9 +41,9 @@ template <class Table>
 std::string missing_in(const void* table, const PluginInfo& info) {
   const auto& theirs = *static_cast<const Table*>(table);
   if (!has_v1_0<Table>(theirs.struct_size))
-    return fmt::format("interface_->struct_size ({}, at least {})", theirs.struct_size, size_v1_0<Table>);
+    return fmt::format("table->struct_size ({}, at least {})", theirs.struct_size, size_v1_0<Table>);
   const std::string function = missing_function(theirs, info);
-  return function.empty() ? "" : "interface_->" + function;
+  return function.empty() ? "" : "table->" + function;
 }
 
 std::string missing_in_interface(const void* table, const PluginInfo& info) {
@@ -63,8 +64,8 @@ std::string missing_part(const dmrp_plugin& plugin, const PluginInfo& info) {
   if (!plugin.self) return "self";
   if (!plugin.start) return "start";
   if (!plugin.destroy) return "destroy";
-  if (!plugin.interface_) return "interface_";
-  return missing_in_interface(plugin.interface_, info);
+  if (!plugin.table) return "table";
+  return missing_in_interface(plugin.table, info);
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ Instance::Instance(const Library& library, const PluginUse& use, std::int32_t ro
   const ParameterTable parameters(use.parameters, grown_bytes);
   Output<dmrp_plugin> made;
   call("create", 0, create_budget_ns, Answers::no_other,
-       [&] { return library.entry().create(host_.c(), id_.c_str(), &parameters.get(), &made.value); });
+       [&] { return library.create(host_.c(), id_.c_str(), &parameters.get(), &made.value); });
   made.check(site("create", 0), "dmrp_plugin");
   const dmrp_plugin& plugin = made.value;
   if (const std::string missing = missing_part(plugin, use.info); !missing.empty())
@@ -100,7 +101,7 @@ Instance::~Instance() {
 
 void Instance::start(const dmrp_world& world, std::uint64_t seed, std::int64_t budget_ns) {
   const dmrp_start start = {sizeof(start), robot_, seed, &world};
-  call("start", 0, budget_ns, Answers::no_other, [&] { return plugin_.start(plugin_.self, &start); });
+  call("start", 0, budget_ns, Answers::unsupported, [&] { return plugin_.start(plugin_.self, &start); });
 }
 
 void Instance::end_trial(const dmrp_trial_end& end, std::int64_t step, std::int64_t budget_ns) {

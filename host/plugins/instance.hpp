@@ -37,7 +37,7 @@ class Instance {
   // The kind's function table; functions that an older plugin lacks are nullptr.
   template <class Table>
   Table table() const {
-    return copy_struct(*static_cast<const Table*>(plugin_.interface_));
+    return copy_struct(*static_cast<const Table*>(plugin_.table));
   }
 
   const dmrp_plugin& plugin() const { return plugin_; }

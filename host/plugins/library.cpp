@@ -102,19 +102,20 @@ Library::Library(const std::filesystem::path& file, const std::function<void(con
   }
   if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
     throw std::runtime_error(missing_entry([&](const char* symbol) { return handle_->library.has(symbol); }));
-  entry_ = copy_entry(handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL));
+  own_entry_ = &handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL);
+  entry_ = copy_entry(*own_entry_);
 
   read_descriptors(stage);
 }
 
 void Library::read_descriptors(const std::function<void(const std::string&)>& stage) {
   if (stage) stage("plugin_count()");
-  const std::uint32_t count = entry_.plugin_count();
+  const std::uint32_t count = plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
   const bool built_in = !name_of_own_library(file_).empty();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (stage) stage(fmt::format("descriptor({})", i));
-    const dmrp_descriptor* descriptor = entry_.descriptor(i);
+    const dmrp_descriptor* descriptor = this->descriptor(i);
     if (!descriptor) throw std::runtime_error(fmt::format("gives no descriptor for its plugin {}", i));
     PluginInfo info = copy_descriptor(*descriptor);
     if (const std::string part = unknown_part(info); !part.empty()) {

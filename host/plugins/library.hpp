@@ -24,7 +24,16 @@ class Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
-  const dmrp_entry& entry() const { return entry_; }
+  // The functions of its entry, and its versions.
+  std::uint32_t abi_minor() const { return entry_.abi_minor; }
+  std::uint32_t plugin_count() const { return entry_.plugin_count(own_entry_); }
+  const dmrp_descriptor* descriptor(std::uint32_t index) const { return entry_.descriptor(own_entry_, index); }
+  std::int32_t init(const dmrp_host* host) const { return entry_.init(own_entry_, host); }
+  void deinit() const { entry_.deinit(own_entry_); }
+  std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) const {
+    return entry_.create(own_entry_, host, id, params, out);
+  }
+
   const std::vector<PluginInfo>& plugins() const { return plugins_; }  // those that this host knows
   const std::filesystem::path& file() const { return file_; }          // absolute
 
@@ -40,7 +49,8 @@ class Library {
 
   std::unique_ptr<Handle> handle_;
   std::filesystem::path file_;
-  dmrp_entry entry_{};  // the library's, zero-filled where it is shorter
+  const dmrp_entry* own_entry_ = nullptr;
+  dmrp_entry entry_{};  // a copy, zero-filled where the library's is shorter
   std::vector<PluginInfo> plugins_;
   std::vector<std::string> objects_;
   std::vector<std::string> warnings_;

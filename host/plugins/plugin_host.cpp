@@ -36,6 +36,7 @@ PluginHost::PluginHost(std::string id, const std::string& library_path, std::vec
   c_.should_stop = [](const dmrp_host* host) noexcept -> std::int32_t {
     return of(host).guard_.should_stop(host) ? 1 : 0;
   };
+  c_.budget_left_ns = [](const dmrp_host* host) noexcept { return of(host).guard_.budget_left_ns(host); };
   c_.get_extension = [](const dmrp_host* host, const char* extension) noexcept -> const void* {
     try {
       return extension ? of(host).extension(extension) : nullptr;
@@ -52,7 +53,7 @@ PluginHost::PluginHost(std::string id, const std::string& library_path, std::vec
 
 const void* PluginHost::extension(const char* id) {
   if (std::find(declared_.begin(), declared_.end(), id) != declared_.end()) {
-    if (id == std::string_view(DMRP_DRAFT_TIMING)) return &timing_.c;
+    if (id == std::string_view(DMRP_EXT_TIMING)) return &timing_.c;
     return extensions_ ? extensions_(id) : nullptr;
   }
   if (refused_.insert(id).second)

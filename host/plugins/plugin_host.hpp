@@ -2,7 +2,7 @@
 // plugin_host.hpp: the dmrp_host of a library or an instance.
 #pragma once
 
-#include <dmrp/draft/timing.h>
+#include <dmrp/ext/timing.h>
 #include <dmrp/host.h>
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class PluginHost {
 
   const dmrp_host* c() const { return &c_; }
 
-  // Sets the function behind get_extension(), which returns nullptr for unknown ids. draft/timing.h needs no trial: it is
+  // Sets the function behind get_extension(), which returns nullptr for unknown ids. ext/timing.h needs no trial: it is
   // always there.
   void offer(std::function<const void*(const char* id)> extensions) { extensions_ = std::move(extensions); }
 

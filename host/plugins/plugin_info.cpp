@@ -67,8 +67,9 @@ double any_number(const nlohmann::json& json) {
 
 template <class Element, class Copy>
 auto copy_all(const Element* base, std::uint32_t count, std::uint32_t stride, const char* what, Copy&& copy) {
-  if (count > 0 && !has_v1_0<Element>(stride))
-    throw std::runtime_error(std::string("has a descriptor with ") + what + " that are shorter than v1.0's");
+  if (count > 0 && !has_stride_v1_0<Element>(stride))
+    throw std::runtime_error(std::string("has a descriptor with ") + what +
+                             " that are shorter than v1.0's, or whose stride is no multiple of 8");
   std::vector<decltype(copy(*base))> out;
   for (std::uint32_t i = 0; i < count; ++i) out.push_back(copy(copy_element(base, stride, i)));
   return out;
@@ -166,6 +167,32 @@ const char* parameter_type_name(std::uint32_t type) {
   return type < std::size(names) ? names[type] : names[0];
 }
 
+namespace {
+
+// The traits of the descriptor's kind; zero where it has none.
+template <class Traits>
+Traits traits_of(const dmrp_descriptor& descriptor) {
+  if (!descriptor.traits) return {};
+  const Traits& theirs = *static_cast<const Traits*>(descriptor.traits);
+  if (!has_v1_0<Traits>(theirs.struct_size)) throw std::runtime_error("has traits that are shorter than v1.0's");
+  return copy_struct(theirs);
+}
+
+void copy_traits(const dmrp_descriptor& c, PluginInfo& out) {
+  if (c.kind == DMRP_KIND_GLOBAL_PLANNER) out.connectivity = traits_of<dmrp_planner_traits>(c).connectivity;
+  if (c.kind == DMRP_KIND_LOCAL_CONTROLLER) {
+    const std::uint32_t drives = traits_of<dmrp_controller_traits>(c).kinematics;
+    out.kinematics = drives == 0 ? 1u << DMRP_KINEMATICS_DIFFERENTIAL : drives;
+  }
+  if (c.kind == DMRP_KIND_METRIC) {
+    const auto traits = traits_of<dmrp_metric_traits>(c);
+    out.channels = traits.channels;
+    out.values = copy_all(traits.values, traits.value_count, traits.value_stride, "values", copy_value);
+  }
+}
+
+}  // namespace
+
 PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
   if (!has_v1_0<dmrp_descriptor>(theirs.struct_size))
     throw std::runtime_error("has a descriptor that is shorter than v1.0's");
@@ -179,15 +206,11 @@ PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
   out.license = escaped(c.license);
   out.summary = escaped(c.summary);
   out.source = escaped(c.source);
-  out.needs = escaped_texts(c.requires_, c.requires_count);
+  out.needs = escaped_texts(c.needed, c.needed_count);
   out.uses = escaped_texts(c.uses, c.uses_count);
   out.parameters = copy_all(c.params, c.param_count, c.param_stride, "parameters", copy_parameter);
-  out.values = copy_all(c.values, c.value_count, c.value_stride, "values", copy_value);
-  out.connectivity = c.connectivity;
-  out.channels = c.channels;
   out.flags = c.flags;
-  out.kinematics = c.kinematics;
-  if (c.kind == DMRP_KIND_LOCAL_CONTROLLER && c.kinematics == 0) out.kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL;
+  copy_traits(c, out);
   return out;
 }
 

@@ -26,13 +26,19 @@ inline constexpr std::size_t size_v1_0 = 0;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_entry> = 56;
 template <>
-inline constexpr std::size_t size_v1_0<dmrp_descriptor> = 136;
+inline constexpr std::size_t size_v1_0<dmrp_descriptor> = 120;
+template <>
+inline constexpr std::size_t size_v1_0<dmrp_planner_traits> = 8;
+template <>
+inline constexpr std::size_t size_v1_0<dmrp_controller_traits> = 8;
+template <>
+inline constexpr std::size_t size_v1_0<dmrp_metric_traits> = 24;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_param_spec> = 104;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_metric_value_spec> = 40;
 template <>
-inline constexpr std::size_t size_v1_0<dmrp_global_planner> = 16;
+inline constexpr std::size_t size_v1_0<dmrp_global_planner> = 24;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_local_controller> = 32;
 template <>
@@ -61,6 +67,12 @@ template <class Struct>
 constexpr bool has_v1_0(std::size_t bytes) {
   static_assert(size_v1_0<Struct> > 0 && size_v1_0<Struct> <= sizeof(Struct));
   return bytes >= size_v1_0<Struct>;
+}
+
+// The same of an array's elements, whose strides are multiples of 8.
+template <class Element>
+constexpr bool has_stride_v1_0(std::size_t stride) {
+  return has_v1_0<Element>(stride) && stride % 8 == 0;
 }
 
 // The struct that has `bytes` bytes in its maker's version.

@@ -15,4 +15,7 @@ inline constexpr const char* bad_output = "bad_output";
 inline constexpr const char* abi_breach = "abi_breach";
 inline constexpr const char* error_status = "error_status";
 
+// No fault: the plugin says that the trial is not for it.
+inline constexpr const char* unsupported = "unsupported";
+
 }  // namespace dmrp::host::fault_kind

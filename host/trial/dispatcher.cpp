@@ -130,7 +130,7 @@ void Dispatcher::cut(std::uint32_t robot) {
     return turn <= passed || (turn == course.cut && is_near(robot, course.path[turn]));
   };
   while (!course.turns.empty() && is_behind(course.turns.front())) course.turns.erase(course.turns.begin());
-  std::uint32_t end = std::min(course.released, progress_[robot].before_return());
+  std::uint32_t end = std::min({course.released, progress_[robot].before_return(), goal_waypoint(robot)});
   if (!course.turns.empty()) end = std::min(end, course.turns.front());
   if (end == course.cut) return;
   course.cut = end;
@@ -161,7 +161,7 @@ void Dispatcher::release() {
 void Dispatcher::advance(std::uint32_t robot) {
   Course& course = courses_[robot];
   const auto is_passed = [&] { return course.target < course.behind || is_near(robot, course.path[course.target]); };
-  while (course.target < course.cut && !ends_at_goal(robot, course.target) && is_passed()) {
+  while (course.target < course.cut && is_passed()) {
     ++course.target;
     course.is_new = true;
   }
@@ -188,26 +188,35 @@ bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) con
          world_.goals(robot)[state.goal_index].tolerance_m;
 }
 
-// Whether the path to the robot's current goal ends at this waypoint.
-bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const {
+// The waypoint at which the way to the robot's current goal ends.
+std::uint32_t Dispatcher::goal_waypoint(std::uint32_t robot) const {
   const auto& path = courses_[robot].path;
   const std::uint32_t current = world_.robots()[robot].goal_index;
-  return waypoint + 1 == path.size() || path[waypoint + 1].goal_index > current;
+  const auto beyond = std::partition_point(path.begin(), path.end(),
+                                           [&](const dmrp_waypoint& waypoint) { return waypoint.goal_index <= current; });
+  return beyond == path.begin() ? 0 : static_cast<std::uint32_t>(beyond - path.begin()) - 1;
 }
 
-std::span<const dmrp_waypoint> Dispatcher::take_new_path(std::uint32_t robot) {
+HandedPath Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
-  if (by_waypoint()) return {&course.path[course.target], 1};
-  return {course.path.data(), course.cut + std::size_t{1}};
+  HandedPath handed;
+  if (std::exchange(course.is_begun, true)) handed.update_flags = DMRP_PATH_CONTINUES;
+  if (by_waypoint()) {
+    handed.waypoints = {&course.path[course.target], 1};
+  } else {
+    handed.waypoints = {course.path.data(), course.cut + std::size_t{1}};
+    if (course.cut < goal_waypoint(robot)) handed.flags = DMRP_PATH_PARTIAL;
+  }
+  return handed;
 }
 
 Guidance Dispatcher::guidance(std::uint32_t robot) const {
   const Course& course = courses_[robot];
   const dmrp_goal& goal = world_.goals(robot)[world_.robots()[robot].goal_index];
-  if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint(), course.cut};
-  Guidance guidance = {goal, 0.0, 0, 0};
-  if (!ends_at_goal(robot, course.target)) {
+  if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint()};
+  Guidance guidance = {goal, 0.0, 0};
+  if (course.target != goal_waypoint(robot)) {
     const dmrp_waypoint& waypoint = course.path[course.target];
     guidance.goal.pose = {waypoint.x, waypoint.y, waypoint.theta};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// dispatcher.hpp: passes a plan to the robots: the path or waypoint of each, and how far it may drive.
+// dispatcher.hpp: passes a plan to the robots: to each the path up to where it must stop, or a waypoint.
 #pragma once
 
 #include <dmrp/path.h>
@@ -23,15 +23,21 @@ struct Guidance {
   dmrp_goal goal{};
   double progress_m = 0.0;
   std::uint32_t progress_waypoint = 0;
-  std::uint32_t released_waypoint = 0;
+};
+
+// A path that a controller is to be handed.
+struct HandedPath {
+  std::span<const dmrp_waypoint> waypoints;  // empty: it keeps the one that it has
+  std::uint32_t flags = 0;                   // DMRP_PATH_PARTIAL
+  std::uint32_t update_flags = 0;            // DMRP_PATH_CONTINUES
 };
 
 // For one trial. A robot's course is its planned path extended to the goals themselves (path_to_drive()). Progress is
 // measured along the course in both modes of dispatch.
 //
-// The course is cut where the robot must stop: at the last waypoint that the order releases, before it returns to where
-// it is (PathProgress::before_return()), and where it turns back, until it has been there. A controller that stops at
-// the end of what it gets is right by construction.
+// The course is cut where the robot must stop: at its current goal, at the last waypoint that the order releases, before
+// it returns to where it is (PathProgress::before_return()), and where it turns back, until it has been there. A
+// controller that stops at the end of what it gets is right by construction.
 // - dispatch = "full_path": the controller gets the course up to the cut, and again whenever the cut moves.
 // - dispatch = "waypoint": the controller gets one waypoint at a time, and the next one when the robot is within the
 //   goal's tolerance of it; the robot neither stops nor waits for others. A wait in the plan is reached at once, so it
@@ -52,9 +58,8 @@ class Dispatcher {
   // Releases waypoints and advances robots to the next ones; at every control tick, before the functions below.
   void update_targets();
 
-  // The path that the robot's controller gets now; empty if it keeps the one that it has. Returned once, valid until the
-  // next plan.
-  std::span<const dmrp_waypoint> take_new_path(std::uint32_t robot);
+  // The path that the robot's controller gets now. Returned once, valid until the next plan.
+  HandedPath take_new_path(std::uint32_t robot);
 
   Guidance guidance(std::uint32_t robot) const;
 
@@ -77,13 +82,14 @@ class Dispatcher {
     std::int64_t early_visit = -1;      // the last waypoint at the last goal from which the course leaves and returns
     std::uint32_t behind = 0;           // waypoints at the beginning to which the robot need not drive back
     bool is_new = false;                // the controller does not have it yet
+    bool is_begun = false;              // the controller has had a path of this course
   };
 
   bool ordered() const { return variant_.simulation.execution == core::Execution::ordered; }
   bool by_waypoint() const { return variant_.simulation.dispatch == core::Dispatch::waypoint; }
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
   std::uint32_t waypoints_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const;
-  bool ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const;
+  std::uint32_t goal_waypoint(std::uint32_t robot) const;
   bool is_held(std::uint32_t robot) const;
   void find_stages(Course& course) const;
   std::int64_t time_on_path_ns(std::uint32_t robot) const;

@@ -25,7 +25,7 @@ dmrp_observation observation_of(std::uint32_t robot, const Guidance& guidance, c
   observation.goal_count = static_cast<std::uint32_t>(world.goals(robot).size());
   observation.progress_m = guidance.progress_m;
   observation.progress_waypoint = guidance.progress_waypoint;
-  observation.released_waypoint = guidance.released_waypoint;
+  observation.goal_stride = sizeof(dmrp_goal);
   observation.limits = body.limits;
   observation.footprint = body.footprint;
   observation.agents = agents.data();

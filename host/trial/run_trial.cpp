@@ -2,6 +2,7 @@
 #include "host/trial/run_trial.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -131,16 +132,11 @@ class Run {
   void control() {
     dispatcher_.update_targets();
     plugins_.sense();
-    const std::size_t first_call = plugins_.call_count();
     driven_.clear();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i)
       if (!recovers(i) && is_active(i)) driven_.push_back({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)});
-    const auto commands = plugins_.control(driven_, step_);
-    for (std::size_t i = 0; i < driven_.size(); ++i) {
-      plugins_.note_control(i);
-      drive(driven_[i].robot, commands[i]);
-    }
-    plugins_.order_calls(first_call);
+    answers_ = plugins_.control(driven_, step_);
+    for (std::size_t i = 0; i < driven_.size(); ++i) drive(driven_[i].robot, answers_[i].command);
   }
 
   bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
@@ -159,12 +155,12 @@ class Run {
     const bool waits = now == DMRP_CLASS_HELD || now == DMRP_CLASS_SETTLING;
     const auto action = recoveries_.act(robot, referee_.gained_m()[robot], waits);
     if (!action) {
-      if (recovered) plugins_.note_recovery(robot, DMRP_RECOVERY_NONE);
+      if (recovered) note(DMRP_ROBOT_EVENT_RECOVERY, robot, DMRP_RECOVERY_NONE);
       referee_.recovers(robot, false);
       return false;
     }
     if (action->begins) {
-      plugins_.note_recovery(robot, static_cast<std::int32_t>(*action->begins));
+      note(DMRP_ROBOT_EVENT_RECOVERY, robot, static_cast<std::uint32_t>(*action->begins));
       if (action->begins == core::RecoveryStep::clear_costmap) plugins_.clear_costmap(robot);
       if (action->begins == core::RecoveryStep::replan) recovery_asks_for_plan_ = true;
     }
@@ -174,26 +170,52 @@ class Run {
     return true;
   }
 
+  void note(std::uint32_t kind, std::uint32_t robot, std::uint32_t detail) {
+    events_.push_back({kind, robot, world_.t_ns(), detail, DMRP_NOBODY});
+  }
+
   // Without a command the robot brakes.
   void drive(std::uint32_t robot, const std::optional<dmrp_twist>& command) {
     const std::uint64_t clipped_before = world_.robots()[robot].clipped_commands;
     world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
-    if (world_.robots()[robot].clipped_commands > clipped_before) plugins_.note_clipped(robot);
+    if (world_.robots()[robot].clipped_commands > clipped_before) note(DMRP_ROBOT_EVENT_CLIPPED, robot, 0);
     if (command) referee_.command_given(robot);
     recoveries_.controller_answered(robot, command.has_value());
   }
 
-  void record(std::span<const dmrp_contact> contacts) {
+  // The robots' states, and what their controllers were handed and answered since the last sample.
+  void note_robots() {
+    constexpr dmrp_twist nothing = {std::nan(""), std::nan(""), std::nan("")};
     robots_.clear();
     for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
       robots_.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index,
-                         dispatcher_.progress()[i].progress_m(), robot.steering_rad});
+                         dispatcher_.progress()[i].progress_m(), robot.steering_rad, nothing, DMRP_OK, 0});
     }
+    paths_.clear();
+    routes_.clear();
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      dmrp_robot_sample& robot = robots_[driven_[i].robot];
+      robot.answer = answers_[i].command.value_or(nothing);
+      robot.answer_status = answers_[i].status;
+      const HandedPath& path = driven_[i].new_path;
+      if (!path.waypoints.empty())
+        paths_.push_back({sizeof(dmrp_path), static_cast<std::uint32_t>(path.waypoints.size()), sizeof(dmrp_waypoint),
+                          path.flags, path.waypoints.data()});
+    }
+    for (std::size_t i = 0; i < answers_.size(); ++i)
+      if (!driven_[i].new_path.waypoints.empty())
+        routes_.push_back({driven_[i].robot, driven_[i].new_path.update_flags, &paths_[routes_.size()]});
+    answers_ = {};
+  }
+
+  void record(std::span<const dmrp_contact> contacts) {
+    note_robots();
     const auto people = world_.people();
-    auto calls = plugins_.take_calls();
+    const auto calls = plugins_.take_calls();
     const auto changes = referee_.take_changes();
-    calls.insert(calls.end(), changes.begin(), changes.end());
+    events_.insert(events_.end(), changes.begin(), changes.end());
+    std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.robot < b.robot; });
     dmrp_sample sample{};
     sample.struct_size = sizeof(sample);
     sample.control_tick = control_due();
@@ -212,7 +234,15 @@ class Run {
     sample.calls = calls.data();
     sample.call_count = static_cast<std::uint32_t>(calls.size());
     sample.call_stride = sizeof(dmrp_call);
+    sample.events = events_.data();
+    sample.event_count = static_cast<std::uint32_t>(events_.size());
+    sample.event_stride = sizeof(dmrp_robot_event);
+    sample.routes = routes_.data();
+    sample.route_count = static_cast<std::uint32_t>(routes_.size());
+    sample.route_stride = sizeof(dmrp_route);
+    sample.task_event_stride = sizeof(dmrp_task_event);
     trace_.sample(sample);
+    events_.clear();
   }
 
   dmrp_trial_end end_without_plan() {
@@ -245,8 +275,12 @@ class Run {
   Plan plan_;                         // in force
   std::optional<Plan> pending_plan_;  // comes into force after the planning latency
   std::int64_t step_ = 0;
-  std::vector<TrialPlugins::DrivenRobot> driven_;  // of control()
-  std::vector<dmrp_robot_sample> robots_;
+  std::vector<TrialPlugins::DrivenRobot> driven_;    // of the last control()
+  std::span<const TrialPlugins::Answer> answers_{};  // parallel to them; empty once they are recorded
+  std::vector<dmrp_robot_event> events_;             // since the last sample
+  std::vector<dmrp_robot_sample> robots_;            // of the sample, as the next two
+  std::vector<dmrp_path> paths_;
+  std::vector<dmrp_route> routes_;
   std::vector<dmrp_robot_end> ends_;
 };
 

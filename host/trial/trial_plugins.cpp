@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/trial/trial_plugins.hpp"
 
-#include <dmrp/draft/processor_time.h>
 #include <dmrp/ext/annotate.h>
 #include <fmt/format.h>
 
@@ -192,10 +191,7 @@ Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   Plan plan = make_plan(source, planner_use_->info, variant_, world_, in_force,
                         nanoseconds(experiment_.limits.planner_time_s), step);
   if (!in_force && planner_.instance && first_plan_.on_made) first_plan_.on_made(plan);
-  if (plan.answered) {
-    note_call(DMRP_CALL_PLAN, 0, {plan.status, plan.planning_ns});
-    note_call(DMRP_CALL_PLAN_PROCESSOR_TIME, 0, {plan.status, plan.processor_ns});
-  }
+  if (plan.answered) note_call(DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, {plan.status, plan.planning_ns});
   return plan;
 }
 
@@ -215,37 +211,22 @@ void TrialPlugins::sense() {
     }
 }
 
-std::span<const std::optional<dmrp_twist>> TrialPlugins::control(std::span<const DrivenRobot> robots,
-                                                                 std::int64_t step) {
+std::span<const TrialPlugins::Answer> TrialPlugins::control(std::span<const DrivenRobot> robots, std::int64_t step) {
   answers_.clear();
-  commands_.clear();
-  commanded_.clear();
   if (central_ && !robots.empty()) control_all(robots, step);
   for (std::size_t first = 0; first < robots.size() && !central_; first += most_robots_of_a_request)
     control_some(robots.subspan(first, std::min(most_robots_of_a_request, robots.size() - first)), step);
-  return commands_;
-}
-
-void TrialPlugins::note_control(std::size_t index) {
-  if (!central_)
-    note_call(DMRP_CALL_CONTROL, commanded_[index], answers_[index]);
-  else if (index == 0)
-    note_call(DMRP_CALL_CONTROL, 0, answers_[0]);
-}
-
-void TrialPlugins::order_calls(std::size_t first) {
-  if (central_) return;  // one call for all
-  std::stable_sort(calls_.begin() + static_cast<std::ptrdiff_t>(first), calls_.end(),
-                   [](const dmrp_call& a, const dmrp_call& b) { return a.robot < b.robot; });
+  return answers_;
 }
 
 const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena& arena) {
-  if (robot.new_path.empty()) return nullptr;
-  const auto count = static_cast<std::uint32_t>(robot.new_path.size());
-  const dmrp_path* const path = arena.copy(
-      dmrp_path{sizeof(dmrp_path), count, sizeof(dmrp_waypoint), 0, arena.copy(robot.new_path.data(), count)});
-  return arena.copy(
-      dmrp_path_update{sizeof(dmrp_path_update), robot.robot, ++controllers_[robot.robot].revision, path});
+  const HandedPath& handed = robot.new_path;
+  if (handed.waypoints.empty()) return nullptr;
+  const auto count = static_cast<std::uint32_t>(handed.waypoints.size());
+  const dmrp_path* const path = arena.copy(dmrp_path{sizeof(dmrp_path), count, sizeof(dmrp_waypoint), handed.flags,
+                                                     arena.copy(handed.waypoints.data(), count)});
+  return arena.copy(dmrp_path_update{sizeof(dmrp_path_update), robot.robot, ++controllers_[robot.robot].revision, path,
+                                     handed.update_flags, 0});
 }
 
 void TrialPlugins::control_some(std::span<const DrivenRobot> robots, std::int64_t step) {
@@ -264,7 +245,9 @@ void TrialPlugins::control_some(std::span<const DrivenRobot> robots, std::int64_
   auto* const answers = guest.output().make<ControlAnswer>(robots.size());
   call(first, {GuestTask::control, 0, step, step_budget_ns_, input, answers});
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    take_command(robots[i], ControlAnswer(answers[i]), "step", step);
+    const ControlAnswer answer = answers[i];
+    take_command(robots[i], answer, "step", step);
+    note_call(DMRP_CALL_CONTROL, robots[i].robot, answer.call);
   }
 }
 
@@ -295,17 +278,16 @@ void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t
     one.call = {one.command.status, result.duration_ns};
     take_command(robots[i], one, "step_all", step);
   }
-  answers_.assign(1, result);
+  note_call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, result);
 }
 
 void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function,
                                 std::int64_t step) {
   const dmrp_command& command = answer.command;
   controllers_[robot.robot].read = answer.read;
-  answers_.push_back(answer.call);
-  commanded_.push_back(robot.robot);
-  if (answer.call.status == DMRP_NO_SOLUTION) {
-    commands_.push_back(std::nullopt);
+  const std::int32_t status = answer.call.status;
+  if (status == DMRP_NO_SOLUTION) {
+    answers_.push_back({std::nullopt, status});
     return;
   }
   const auto fail = [&](const char* kind, const std::string& text) {
@@ -313,12 +295,12 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     site.robot = static_cast<std::int32_t>(robot.robot);
     throw PluginFault(kind, site, text);
   };
-  if (central_ && answer.call.status != DMRP_OK)  // the status of a call has been checked
+  if (central_ && status != DMRP_OK)  // the status of a call has been checked
     fail(fault_kind::abi_breach,
-         fmt::format("gave the status {}, which status.h does not allow a command", answer.call.status));
+         fmt::format("gave the status {}, which status.h does not allow a command", status));
   if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
     fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
-  commands_.push_back(dmrp_twist{command.v_x, command.v_y, command.omega});
+  answers_.push_back({dmrp_twist{command.v_x, command.v_y, command.omega}, status});
 }
 
 const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step) {
@@ -349,7 +331,7 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
                         fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocity.x, velocity.y));
     velocities_[i] = velocity;
   }
-  note_call(DMRP_CALL_PEOPLE, 0, *answer);
+  note_call(DMRP_CALL_PEOPLE, DMRP_ALL_ROBOTS, *answer);
   return velocities_;
 }
 

@@ -56,15 +56,17 @@ class TrialPlugins {
   struct DrivenRobot {
     std::uint32_t robot;
     Guidance guidance;
-    std::span<const dmrp_waypoint> new_path;  // empty: it keeps the one that it has
+    HandedPath new_path;
   };
 
-  // The next commands, parallel to `robots`, valid until the next call. Nothing for a robot whose controller found none:
-  // the host then brakes. All robots are observed before any of them is driven.
-  std::span<const std::optional<dmrp_twist>> control(std::span<const DrivenRobot> robots, std::int64_t step);
+  // What a controller answered: nothing if it found no command. The host then brakes.
+  struct Answer {
+    std::optional<dmrp_twist> command;
+    std::int32_t status;
+  };
 
-  // Notes the call that gave the command `index` of the last control(): before what becomes of it.
-  void note_control(std::size_t index);
+  // The answers, parallel to `robots`, valid until the next call. All robots are observed before any of them is driven.
+  std::span<const Answer> control(std::span<const DrivenRobot> robots, std::int64_t step);
 
   // The velocities of all people for the next step.
   const std::vector<dmrp_vec2>& people_velocities(std::int64_t step);
@@ -72,21 +74,9 @@ class TrialPlugins {
   // The trial has ended without a fault.
   void end_trial(const dmrp_trial_end& end, std::int64_t step);
 
-  // The command of a robot was beyond its drive's ability.
-  void note_clipped(std::uint32_t robot) { calls_.push_back({DMRP_CALL_CLIPPED, robot, DMRP_OK, 0, 0}); }
-
-  // The robot's recovery began a step, or ended: DMRP_RECOVERY_*.
-  void note_recovery(std::uint32_t robot, std::int32_t step) {
-    calls_.push_back({DMRP_CALL_RECOVERY, robot, step, 0, 0});
-  }
-
   // Whether the robot has a costmap, which remembers; and makes it forget.
   bool has_costmap(std::uint32_t robot) const { return controllers_[robot].sensors->has_costmap(); }
   void clear_costmap(std::uint32_t robot) { controllers_[robot].sensors->clear_costmap(); }
-
-  // The calls since the first of this number stand in the order of their robots, as if each robot had been seen to alone.
-  std::size_t call_count() const { return calls_.size(); }
-  void order_calls(std::size_t first);
 
   // The calls of plugins since the previous take_calls().
   std::vector<dmrp_call> take_calls() { return std::move(calls_); }
@@ -138,10 +128,8 @@ class TrialPlugins {
   core::TraceEncoder* annotated_trace_;        // nullptr if no annotations are recorded
   std::vector<Controller> controllers_;        // by robot; all with the same instance if it is central
   bool central_ = false;
-  std::vector<CallAnswer> answers_;  // of control(), as the next
-  std::vector<std::optional<dmrp_twist>> commands_;
-  std::vector<std::uint32_t> commanded_;  // the robots
-  std::vector<dmrp_vec2> velocities_;     // parallel to world_.people()
+  std::vector<Answer> answers_;        // of control()
+  std::vector<dmrp_vec2> velocities_;  // parallel to world_.people()
   std::vector<dmrp_call> calls_;
 };
 

@@ -13,11 +13,10 @@ namespace {
 
 std::string digest_of_messages(const std::filesystem::path& trace) {
   core::McapReader file(trace.string(), core::trace_topic);
-  core::CanonicalRecords records;
   Sha256 hash;
   std::size_t count = 0;
   for (auto message = file.next(); message; message = file.next(), ++count) {
-    const core::TraceBytes record = records.next(message->data);
+    const core::TraceBytes record = core::canonical_record(message->data);
     hash.add(&message->log_time_ns, sizeof(message->log_time_ns));
     hash.add(record.data(), record.size());
   }

@@ -56,7 +56,7 @@ provoke() {
     '`create()` leaves out `self`') without_part 'no self' ;;
     '`create()` leaves out `start`') without_part 'no start' ;;
     '`create()` leaves out `destroy`') without_part 'no destroy' ;;
-    '`create()` leaves out `interface_`') without_part 'no interface' ;;
+    '`create()` leaves out `table`') without_part 'no interface' ;;
     'a function table lacks `step`') without_part 'no step' ;;
     'a robot gets two paths') with_fault 'gives a path twice' 'planner status/ordinary' ;;
     'a path is for no robot') with_fault 'gives a path to nobody' 'planner status/ordinary' ;;

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <dmrp/cpp/timing.hpp>
 #include <dmrp/plugin.hpp>
 #include <thread>
 
@@ -97,8 +96,8 @@ class Planted : public Kind {
     if (has("compares struct_size") && start.world->struct_size != sizeof(dmrp_world))
       return this->set_error("another world"), Status::error;
     if (has("changes its descriptor"))
-      for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
-        const_cast<dmrp_descriptor*>(dmrp_entry_v1.descriptor(i))->name = "Other";
+      for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(&dmrp_entry_v1); ++i)
+        const_cast<dmrp_descriptor*>(dmrp_entry_v1.descriptor(&dmrp_entry_v1, i))->name = "Other";
     if (has("tires")) ++starts_of_all;
     if (has("keeps the first world") && !first_world_) first_world_ = start.world.operator->();
     if (has("writes to the world")) const_cast<dmrp::Limits&>(*start.world.robots()[0].limits).v_max = 3.0;
@@ -180,7 +179,7 @@ dmrp::Descriptor descriptor_of(const char* kind) {
   descriptor.license(has("odd licence") ? "GPL" : "MIT")
       .summary(has("no summary") ? "" : "Keeps its contract, but for one fault");
   if (has("needs the optional")) descriptor.uses(DMRP_EXT_ANNOTATE);
-  if (has("says that it draws in a thread")) descriptor.uses(DMRP_DRAFT_TIMING);
+  if (has("says that it draws in a thread")) descriptor.uses(DMRP_EXT_TIMING);
   if (has("misspelt extension")) descriptor.uses("dmrp.anotate/1");
   if (has("unknown flag")) descriptor.flags(1u << 20);
   return descriptor;

@@ -80,7 +80,7 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   (void)id;
   (void)params;
   if (!has("no self")) out->self = &instance;
-  if (!has("no interface")) out->interface_ = has("no step") ? &without_step : &whole;
+  if (!has("no interface")) out->table = has("no step") ? &without_step : &whole;
   if (!has("no start")) out->start = start;
   if (!has("no destroy")) out->destroy = destroy;
   return DMRP_OK;

@@ -13,8 +13,8 @@ using namespace dmrp::test;
 namespace {
 
 const dmrp_descriptor& descriptor(const std::string& id) {
-  for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(); ++i)
-    if (const dmrp_descriptor* d = dmrp_entry_v1.descriptor(i); d && id == d->id) return *d;
+  for (std::uint32_t i = 0; i < dmrp_entry_v1.plugin_count(&dmrp_entry_v1); ++i)
+    if (const dmrp_descriptor* d = dmrp_entry_v1.descriptor(&dmrp_entry_v1, i); d && id == d->id) return *d;
   throw std::runtime_error("no descriptor of " + id);
 }
 
@@ -45,11 +45,11 @@ TEST_CASE("the entry says what it was built with and lists the plugins in their 
   CHECK(dmrp_entry_v1.abi_minor == DMRP_ABI_MINOR);
   CHECK(dmrp_entry_v1.abi_draft == DMRP_ABI_DRAFT);
   CHECK(dmrp_entry_v1.min_host_minor == 0);
-  REQUIRE(dmrp_entry_v1.plugin_count() == 6);
-  CHECK(dmrp_entry_v1.descriptor(0)->id == std::string("sample.controller"));
-  CHECK(dmrp_entry_v1.descriptor(5)->id == std::string("sample.unmakeable"));
-  CHECK(dmrp_entry_v1.descriptor(6) == nullptr);
-  CHECK(dmrp_entry_v1.descriptor(0) == dmrp_entry_v1.descriptor(0));  // static data
+  REQUIRE(dmrp_entry_v1.plugin_count(&dmrp_entry_v1) == 6);
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0)->id == std::string("sample.controller"));
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 5)->id == std::string("sample.unmakeable"));
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 6) == nullptr);
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0) == dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0));  // static data
 }
 
 TEST_CASE("a descriptor carries all that describe() said") {
@@ -62,7 +62,7 @@ TEST_CASE("a descriptor carries all that describe() said") {
   CHECK(controller.license == std::string("MIT"));
   CHECK(controller.summary == std::string("what it does"));
   CHECK(controller.source == std::string("a paper, section 4"));
-  CHECK(list(controller.requires_, controller.requires_count) == std::vector<std::string>{"dmrp.lidar/1"});
+  CHECK(list(controller.needed, controller.needed_count) == std::vector<std::string>{"dmrp.lidar/1"});
   CHECK(list(controller.uses, controller.uses_count) ==
         std::vector<std::string>{"dmrp.local_costmap/1", "dmrp.annotate/1"});
   CHECK(controller.value_count == 0);
@@ -235,7 +235,7 @@ TEST_CASE("create() answers what it cannot make with a status and a text") {
   CHECK(create("sample.other") == DMRP_ERROR);
   CHECK(host.error == "no plugin of that id in this library");
 
-  CHECK(dmrp_entry_v1.descriptor(5) != nullptr);  // created before the error
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 5) != nullptr);  // created before the error
   seen().texts = {"throw"};
   CHECK(create("sample.unmakeable") == DMRP_ERROR);
   CHECK(host.error == "thrown on purpose");

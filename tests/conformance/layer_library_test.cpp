@@ -17,7 +17,7 @@ std::int32_t init(RecordingHost& host, const char* load_does, const char* unload
   seen().unloaded.clear();
   seen().load_does = load_does;
   seen().unload_does = unload_does;
-  return dmrp_entry_v1.init(&host.c);
+  return dmrp_entry_v1.init(&dmrp_entry_v1, &host.c);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ TEST_CASE("init() loads each class once, with the library's host, and deinit() u
     CHECK(seen().loaded.size() == 2);
   }
   CHECK(seen().unloaded.empty());
-  dmrp_entry_v1.deinit();
+  dmrp_entry_v1.deinit(&dmrp_entry_v1);
   CHECK(seen().unloaded.size() == 2);
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("an exception of load() becomes the status of init()") {
 TEST_CASE("an exception of unload() does not get out, and the other classes are unloaded") {
   RecordingHost host;
   REQUIRE(init(host, "nothing", "throw") == DMRP_OK);
-  CHECK_NOTHROW(dmrp_entry_v1.deinit());
+  CHECK_NOTHROW(dmrp_entry_v1.deinit(&dmrp_entry_v1));
   CHECK(seen().unloaded == std::vector<std::string>{"sample.controller", "sample.central"});
 }
 

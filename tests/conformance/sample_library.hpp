@@ -75,7 +75,7 @@ class Sample {
 
   template <class Interface>
   const Interface& as() const {
-    return *static_cast<const Interface*>(c.interface_);
+    return *static_cast<const Interface*>(c.table);
   }
   std::int32_t start(std::uint64_t seed = 1, std::int32_t robot = 0) const;
 

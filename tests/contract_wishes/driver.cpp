@@ -32,11 +32,11 @@ Library::Library(const std::string& path) : host(path), path_(path) {
   if (!handle_) throw std::runtime_error(dlerror());
   entry_ = static_cast<const dmrp_entry*>(dlsym(handle_, DMRP_ENTRY_SYMBOL));
   if (!entry_ || entry_->abi_draft != DMRP_ABI_DRAFT) throw std::runtime_error(path + " has no entry of this draft");
-  initialised = entry_->init(&host.c);
+  initialised = entry_->init(entry_, &host.c);
 }
 
 Library::~Library() {
-  if (initialised == DMRP_OK) entry_->deinit();
+  if (initialised == DMRP_OK) entry_->deinit(entry_);
   dlclose(handle_);
 }
 

@@ -38,7 +38,7 @@ class Library {
   Library& operator=(const Library&) = delete;
 
   const dmrp_entry& entry() const { return *entry_; }
-  const dmrp_descriptor& descriptor() const { return *entry_->descriptor(0); }
+  const dmrp_descriptor& descriptor() const { return *entry_->descriptor(entry_, 0); }
   const std::string& path() const { return path_; }
 
   Host host;
@@ -92,7 +92,7 @@ class Instance {
 
   template <class Interface>
   const Interface& as() const {
-    return *static_cast<const Interface*>(c.interface_);
+    return *static_cast<const Interface*>(c.table);
   }
   std::int32_t start(World& world, std::int32_t robot = DMRP_NO_ROBOT) const;
   // Gives a path through these points, each to be reached a second after the one before.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace_digest [--records] TRACE.mcap...: for each file a line `SHA-256  file`, the digest that host/verify/trace_digest.hpp
-// defines, which is the same for all format versions. With --records a line for each record in its place, `number kind
+// defines. With --records a line for each record in its place, `number kind
 // log_time_ns bytes SHA-256`, so that the diff of two lists shows where two trials part.
 //
 // Exit status 1 where a trace is damaged or was cut short.
@@ -29,10 +29,9 @@ using dmrp::host::Sha256;
 // On standard output: a line a record.
 void print_records(const char* path) {
   McapReader file(path, dmrp::core::trace_topic);
-  dmrp::core::CanonicalRecords records;
   std::size_t number = 0;
   for (auto message = file.next(); message; message = file.next(), ++number) {
-    const TraceBytes record = records.next(message->data);
+    const TraceBytes record = dmrp::core::canonical_record(message->data);
     Sha256 one;
     one.add(record.data(), record.size());
     std::printf("%zu %d %lld %zu %s\n", number, record[4], static_cast<long long>(message->log_time_ns), record.size(),

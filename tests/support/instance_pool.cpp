@@ -10,7 +10,7 @@ InstancePool::InstancePool(const std::vector<LibraryUse>& libraries, CallGuard& 
     auto host =
         std::make_unique<PluginHost>("library", library->file().string(), std::vector<std::string>(), guard_, log_);
     guard_.call(host->c(), {use.written, "init", 0, -1}, init_budget_ns, Answers::no_other,
-                [&] { return library->entry().init(host->c()); });
+                [&] { return library->init(host->c()); });
     libraries_.push_back({std::move(library), std::move(host)});
   }
 }
@@ -20,7 +20,7 @@ InstancePool::~InstancePool() {
   for (const LoadedLibrary& loaded : libraries_) {
     try {
       guard_.call(loaded.host->c(), {"library", "deinit", 0, -1}, init_budget_ns, Answers::no_other,
-                  [&] { return loaded.library->entry().deinit(), DMRP_OK; });
+                  [&] { return loaded.library->deinit(), DMRP_OK; });
     } catch (const PluginFault& fault) {
       log_(DMRP_LOG_ERROR, "library", std::string("deinit: ") + fault.what());
     }

@@ -74,7 +74,7 @@ class FakeHost {
   bool declares(const std::string& id) const {
     if (!descriptor_) return false;
     const dmrp_descriptor& d = *descriptor_;
-    return std::find(d.requires_, d.requires_ + d.requires_count, id) != d.requires_ + d.requires_count ||
+    return std::find(d.needed, d.needed + d.needed_count, id) != d.needed + d.needed_count ||
            std::find(d.uses, d.uses + d.uses_count, id) != d.uses + d.uses_count;
   }
 
@@ -95,14 +95,14 @@ class PluginLibrary {
   }
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
-  ~PluginLibrary() { entry_->deinit(); }
+  ~PluginLibrary() { entry_->deinit(entry_); }
 
   const dmrp_entry& entry() const { return *entry_; }
 
   // nullptr where the library has no such plugin.
   const dmrp_descriptor* find(const std::string& id) const {
-    for (uint32_t i = 0; i < entry_->plugin_count(); ++i)
-      if (const dmrp_descriptor* descriptor = entry_->descriptor(i); id == descriptor->id) return descriptor;
+    for (uint32_t i = 0; i < entry_->plugin_count(entry_); ++i)
+      if (const dmrp_descriptor* descriptor = entry_->descriptor(entry_, i); id == descriptor->id) return descriptor;
     return nullptr;
   }
 
@@ -113,7 +113,7 @@ class PluginLibrary {
     entry_ = static_cast<const dmrp_entry*>(dlsym(handle, DMRP_ENTRY_SYMBOL));
     if (!entry_) throw std::runtime_error(path + " has no " DMRP_ENTRY_SYMBOL);
     if (entry_->abi_draft != DMRP_ABI_DRAFT) throw std::runtime_error(path + " was built with another draft");
-    if (entry_->init(host_.c()) != DMRP_OK) throw std::runtime_error(path + " failed in init()");
+    if (entry_->init(entry_, host_.c()) != DMRP_OK) throw std::runtime_error(path + " failed in init()");
   }
 
   FakeHost host_;
@@ -193,7 +193,7 @@ class PluginUnderTest {
     if (!descriptor_) throw std::runtime_error(library + " has no plugin " + id);
     const ParamTable params(*descriptor_, std::move(overrides));
     c_.struct_size = sizeof(c_);
-    if (library_.entry().create(host_.c(), descriptor_->id, params.c(), &c_) != DMRP_OK)
+    if (library_.entry().create(&library_.entry(), host_.c(), descriptor_->id, params.c(), &c_) != DMRP_OK)
       throw std::runtime_error(id + ": " + (host_.errors.empty() ? "create() failed" : host_.errors.back()));
   }
   PluginUnderTest(const PluginUnderTest&) = delete;
@@ -214,7 +214,7 @@ class PluginUnderTest {
   // The interface of the plugin's kind: as<dmrp_metric>().finish(plugin.self(), ...).
   template <class Interface>
   const Interface& as() const {
-    return *static_cast<const Interface*>(c_.interface_);
+    return *static_cast<const Interface*>(c_.table);
   }
 
   // An extension that the plugin offers, or nullptr.

@@ -83,7 +83,7 @@ dmrp::Descriptor describe(const char* id, const char* class_name) {
       .flags(DMRP_FLAG_BACKWARDS)
       .needs(DMRP_EXT_LOCAL_COSTMAP)
       .uses(DMRP_EXT_ANNOTATE)
-      .uses(DMRP_DRAFT_TIMING);
+      .uses(DMRP_EXT_TIMING);
 }
 
 dmrp::Status Controller::start(const dmrp::Start& start) {

@@ -6,7 +6,6 @@
 #include <adapter/goal_checker.hpp>
 #include <adapter/parameter_file.hpp>
 #include <adapter/plan.hpp>
-#include <dmrp/cpp/timing.hpp>
 #include <dmrp/plugin.hpp>
 #include <memory>
 #include <set>

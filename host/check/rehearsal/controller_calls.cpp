@@ -41,7 +41,7 @@ class ControllerCalls {
     if (active.empty()) return end();
     for (const std::uint32_t robot : active) {
       extensions_.sensors(robot).tick();
-      if (const auto path = dispatcher_.take_new_path(robot); !path.empty()) set_path(robot, path);
+      if (const HandedPath path = dispatcher_.take_new_path(robot); !path.waypoints.empty()) set_path(robot, path);
     }
     central_ ? step_all(active, outputs) : step(outputs);
     const auto& settings = stage_.variant.simulation;
@@ -60,12 +60,13 @@ class ControllerCalls {
     return false;
   }
 
-  void set_path(std::uint32_t robot, std::span<const dmrp_waypoint> waypoints) {
+  void set_path(std::uint32_t robot, const HandedPath& handed) {
     inputs_.clear();
-    const dmrp_path path = {0, static_cast<std::uint32_t>(waypoints.size()), inputs_.stride<dmrp_waypoint>(), 0,
-                            inputs_.array(waypoints.data(), waypoints.size())};
+    const auto& waypoints = handed.waypoints;
+    const dmrp_path path = {0, static_cast<std::uint32_t>(waypoints.size()), inputs_.stride<dmrp_waypoint>(),
+                            handed.flags, inputs_.array(waypoints.data(), waypoints.size())};
     const dmrp_path_update* const update =
-        inputs_.one(dmrp_path_update{0, robot, ++revisions_[robot], inputs_.one(path)});
+        inputs_.one(dmrp_path_update{0, robot, ++revisions_[robot], inputs_.one(path), handed.update_flags, 0});
     inputs_.seal();
     instance_.call("set_path", tick_, stage_budget_ns, Answers::no_other,
                    [&] { return table_.set_path(instance_.self(), update); });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A metric measures a trial in which robots and people go straight on.
-#include <dmrp/draft/processor_time.h>
 
 #include <cmath>
 #include <limits>
@@ -60,14 +59,12 @@ class MetricCalls {
     std::vector<dmrp_robot_sample> robots;
     std::vector<dmrp_call> calls;
     const std::int32_t planned = stage_.settings.fails_to_plan ? DMRP_NO_SOLUTION : DMRP_OK;
-    if (step_ == 0 && robot_count_ > 0) {
-      calls.push_back({DMRP_CALL_PLAN, 0, planned, 0, 5'000'000});
-      calls.push_back({DMRP_CALL_PLAN_PROCESSOR_TIME, 0, planned, 0, 4'000'000});
-    }
+    if (step_ == 0 && robot_count_ > 0) calls.push_back({DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, planned, 0, 5'000'000});
     for (std::uint32_t i = 0; i < robot_count_; ++i) {
       const core::RobotState& robot = world.robots()[i];
       const double progress_m = std::abs(robot.pose.x - stage_.variant.scenario.robots[i].start.x);
-      robots.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_m, 0.0});
+      robots.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_m, 0.0,
+                        robot.command, DMRP_OK, 0});
       if (!stage_.settings.fails_to_plan) calls.push_back({DMRP_CALL_CONTROL, i, DMRP_OK, 0, 1'000'000});
     }
     const auto people = world.people();
@@ -88,9 +85,27 @@ class MetricCalls {
     sample.calls = inputs_.array(calls.data(), calls.size());
     sample.call_count = static_cast<std::uint32_t>(calls.size());
     sample.call_stride = inputs_.stride<dmrp_call>();
+    const std::vector<dmrp_robot_event> events = events_of(world);
+    sample.events = inputs_.array(events.data(), events.size());
+    sample.event_count = static_cast<std::uint32_t>(events.size());
+    sample.event_stride = inputs_.stride<dmrp_robot_event>();
+    sample.route_stride = inputs_.stride<dmrp_route>();
+    sample.task_event_stride = inputs_.stride<dmrp_task_event>();
     const dmrp_sample* const grown = inputs_.one(sample);
     inputs_.seal();
     measurement_.observe(*grown);
+  }
+
+  // Each robot begins as moving; then one event of each known kind, and one of a kind that nobody knows.
+  std::vector<dmrp_robot_event> events_of(const core::World& world) const {
+    std::vector<dmrp_robot_event> events;
+    if (stage_.settings.fails_to_plan) return events;
+    for (std::uint32_t i = 0; step_ == 0 && i < robot_count_; ++i)
+      events.push_back({DMRP_ROBOT_EVENT_CLASS, i, world.t_ns(), DMRP_CLASS_MOVING, DMRP_NOBODY});
+    const std::int64_t before_ns = world.t_ns() - stage_.variant.simulation.step_ns;
+    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_ROUTE + 1 && robot_count_ > 0)
+      events.push_back({static_cast<std::uint32_t>(step_), 0, before_ns, 0, DMRP_NOBODY});
+    return events;
   }
 
   bool finish(Outputs& outputs) {

@@ -86,7 +86,7 @@ void GuestRuntime::load() {
   library_host_ =
       std::make_unique<PluginHost>("library", library_->file().string(), std::vector<std::string>(), guard_, log_);
   guard_.call(library_host_->c(), {written_, "init", 0, -1}, init_budget_ns, Answers::no_other,
-              [&] { return library_->entry().init(library_host_->c()); });
+              [&] { return library_->init(library_host_->c()); });
 }
 
 std::string GuestRuntime::probe() {
@@ -100,8 +100,8 @@ std::string GuestRuntime::probe() {
   try {
     const PluginHost host("library", library.file().string(), {}, guard_, log_);
     guard_.call(host.c(), {"library", "init()"}, init_budget_ns, Answers::no_other,
-                [&] { return library.entry().init(host.c()); });
-    library.entry().deinit();
+                [&] { return library.init(host.c()); });
+    library.deinit();
   } catch (const PluginFault& fault) {
     init_error = std::string("its init() failed: ") + fault.what();
   }
@@ -116,7 +116,7 @@ void GuestRuntime::unload() {
   seats_.clear();
   if (!library_host_) return;
   guard_.call(library_host_->c(), {"library", "deinit", 0, -1}, init_budget_ns, Answers::no_other,
-              [&] { return library_->entry().deinit(), DMRP_OK; });
+              [&] { return library_->deinit(), DMRP_OK; });
   library_host_.reset();
 }
 

@@ -89,7 +89,7 @@ std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
   const dmrp_event c = copy_struct(theirs);
   if (!c.name) return refuse(collected, "event", "", "it has no name");
   if (c.to_ns < c.from_ns) return refuse(collected, "event", c.name, "it ends before it begins");
-  if (c.subject_count > 0 && (!c.subjects || !has_v1_0<dmrp_subject>(c.subject_stride)))
+  if (c.subject_count > 0 && (!c.subjects || !has_stride_v1_0<dmrp_subject>(c.subject_stride)))
     return refuse(collected, "event", c.name, "its subjects cannot be read");
   MetricEvent event = {escaped(c.name), c.from_ns, c.to_ns, {}, {}, escaped(c.text), c.severity, std::nullopt};
   for (std::uint32_t i = 0; i < c.subject_count; ++i) {

@@ -38,6 +38,12 @@ std::string disallowed_detail(const char* name, std::int32_t status) {
   return fmt::format("returned {} ({}), which status.h does not allow this function", name, status);
 }
 
+// What a status of a later minor version is read as (status.h).
+std::int32_t known_status(std::int32_t status) {
+  if (status >= 16 && status <= 31) return DMRP_NO_SOLUTION;
+  return status >= 32 && status <= 63 ? DMRP_ERROR : status;
+}
+
 }  // namespace
 
 std::int64_t CallGuard::longest_ns(std::int64_t budget_ns) {
@@ -50,6 +56,12 @@ bool CallGuard::should_stop(const dmrp_host* caller) noexcept {
   const bool over = most_asks_ < 0 ? monotonic_ns() >= deadline_ns_ : asked > most_asks_;
   if (over) stopped_ = true;
   return over;
+}
+
+std::int64_t CallGuard::budget_left_ns(const dmrp_host* caller) noexcept {
+  if (caller_ != caller) return 0;
+  asked_time_ = true;
+  return should_stop(caller) ? 0 : std::max<std::int64_t>(0, deadline_ns_ - monotonic_ns());
 }
 
 void CallGuard::stop_after_asks(std::int64_t count) {
@@ -130,6 +142,8 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
     caller_ = nullptr;
     if (stopped_.exchange(false))
       add_timing(std::string(site.plugin), fmt::format("{}() was stopped by its time budget", site.function));
+    if (asked_time_.exchange(false))
+      add_timing(std::string(site.plugin), fmt::format("{}() asked how much time it has left", site.function));
   }
   const bool is_long = duration_ns > shortest_start_ns;
   note_.call_number.fetch_add(1);  // before the note of the next call
@@ -140,16 +154,20 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
   if (!processes_allowed_ && is_long && own_process::has_children())
     throw PluginFault(fault_kind::abi_breach, site, "left a process behind", true);
   if (threw) throw PluginFault(fault_kind::abi_breach, site, "let a C++ exception out");
-  switch (status) {
+  switch (known_status(status)) {
     case DMRP_OK:
     case DMRP_WARNING:
       return {status, duration_ns};
     case DMRP_NO_SOLUTION:
-      if (answers != Answers::no_other) return {status, duration_ns};
+      if (answers == Answers::no_solution || answers == Answers::plan) return {DMRP_NO_SOLUTION, duration_ns};
       throw PluginFault(fault_kind::abi_breach, site, disallowed_detail("DMRP_NO_SOLUTION", status));
     case DMRP_TIMEOUT:
-      if (answers == Answers::no_solution_or_timeout) return {status, duration_ns};
+      if (answers == Answers::plan) return {status, duration_ns};
       throw PluginFault(fault_kind::abi_breach, site, disallowed_detail("DMRP_TIMEOUT", status));
+    case DMRP_UNSUPPORTED:
+      if (answers == Answers::plan || answers == Answers::unsupported)
+        throw PluginFault(fault_kind::unsupported, site, status_detail("DMRP_UNSUPPORTED", error()));
+      throw PluginFault(fault_kind::abi_breach, site, disallowed_detail("DMRP_UNSUPPORTED", status));
     case DMRP_OUT_OF_MEMORY:
       throw PluginFault(fault_kind::out_of_memory, site, status_detail("DMRP_OUT_OF_MEMORY", error()));
     case DMRP_ERROR:

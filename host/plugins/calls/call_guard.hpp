@@ -20,7 +20,7 @@
 namespace dmrp::host {
 
 // What a function may return besides DMRP_OK, DMRP_WARNING and the errors: the table in status.h.
-enum class Answers { no_other, no_solution, no_solution_or_timeout };
+enum class Answers { no_other, unsupported, no_solution, plan };
 
 // One per process: only one plugin function runs at a time.
 class CallGuard {
@@ -33,8 +33,8 @@ class CallGuard {
   };
 
   // Calls `function`, which returns a status. `caller`: the host of the library or instance; should_stop() of that host
-  // returns true after `budget_ns`. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, statuses that the function may
-  // not return, changed control bits, exceptions and copies of the process.
+  // returns true after `budget_ns`. Throws PluginFault for OUT_OF_MEMORY, ERROR, FATAL, UNSUPPORTED, statuses that the
+  // function may not return, changed control bits, exceptions and copies of the process.
   template <class Function>
   Result call(const dmrp_host* caller, const CallSite& site, std::int64_t budget_ns, Answers answers,
               Function&& function) {
@@ -55,6 +55,7 @@ class CallGuard {
   // The functions of host.h, from any thread. Outside a call of the caller should_stop() returns true and set_error()
   // does nothing.
   bool should_stop(const dmrp_host* caller) noexcept;
+  std::int64_t budget_left_ns(const dmrp_host* caller) noexcept;
   void set_error(const dmrp_host* caller, const char* text) noexcept;
 
   // From now on should_stop() returns true after so many asks in a call, whatever the time. How often the calls have asked
@@ -62,10 +63,10 @@ class CallGuard {
   void stop_after_asks(std::int64_t count);
   std::int64_t asks() const { return asks_; }
 
-  // The function of draft/timing.h, as set_error().
+  // The function of ext/timing.h, as set_error().
   void depends_on_timing(const dmrp_host* caller, const std::string& plugin, const char* text) noexcept;
 
-  // Why results since reset_timing() depend on timing: calls in which should_stop() returned true, and what plugins say of
+  // Why results since reset_timing() depend on timing: calls that asked for the time left or were stopped, and what plugins say of
   // themselves with depends_on_timing(). The first reason of each plugin.
   std::vector<TimingReason> timing() const;
   void reset_timing();
@@ -97,7 +98,8 @@ class CallGuard {
   std::atomic<std::int64_t> deadline_ns_ = 0;
   std::uint32_t control_bits_ = 0;
   bool processes_allowed_ = false;
-  std::atomic<bool> stopped_ = false;  // the call that runs
+  std::atomic<bool> stopped_ = false;     // the call that runs
+  std::atomic<bool> asked_time_ = false;  // the call that runs asked for the time left
   std::atomic<std::int64_t> asks_ = 0;
   std::int64_t asks_before_ = 0;  // the call that runs
   std::int64_t most_asks_ = -1;   // -1: time alone counts

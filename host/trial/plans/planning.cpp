@@ -47,17 +47,18 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
                   fmt::format("its struct_size is {}, at least {}", theirs.struct_size, size_v1_0<dmrp_path>));
   const dmrp_path path = copy_struct(theirs);
   if (path.count > 0 && !path.waypoints) return refuse(collected, robot, "its waypoints are NULL");
-  if (path.count > 0 && !has_v1_0<dmrp_waypoint>(path.stride))
+  if (path.count > 0 && !has_stride_v1_0<dmrp_waypoint>(path.stride))
     return refuse(collected, robot,
-                  fmt::format("its stride is {}, at least {}", path.stride, size_v1_0<dmrp_waypoint>));
-  constexpr const char* odd_reserved = "a reserved field of its {} is {}, not 0";
-  if (path.reserved != 0) return refuse(collected, robot, fmt::format(odd_reserved, "path", path.reserved));
+                  fmt::format("its stride is {}, at least {} and a multiple of 8", path.stride,
+                              size_v1_0<dmrp_waypoint>));
+  if ((path.flags & ~DMRP_PATH_PARTIAL) != 0)
+    return refuse(collected, robot, fmt::format("its flags are {:#x}, which this host does not know", path.flags));
   std::vector<dmrp_waypoint> waypoints;
   waypoints.reserve(path.count);
   for (std::uint32_t i = 0; i < path.count; ++i) {
     waypoints.push_back(copy_element(path.waypoints, path.stride, i));
     if (const std::uint32_t reserved = waypoints.back().reserved; reserved != 0)
-      return refuse(collected, robot, fmt::format(odd_reserved, "waypoints", reserved));
+      return refuse(collected, robot, fmt::format("a reserved field of its waypoints is {}, not 0", reserved));
     // one NaN for all: a stored plan has the same bits
     if (std::isnan(waypoints.back().theta)) waypoints.back().theta = core::free_heading;
   }
@@ -164,7 +165,8 @@ const dmrp_plan& Plan::view() {
         revision,
         from_ns,
         step_duration_ns,
-        planning_ns};
+        planning_ns,
+        processor_ns};
   return c_;
 }
 
@@ -176,7 +178,7 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
   const auto table = planner.table<dmrp_global_planner>();
   std::int64_t processor_ns = 0;
   const auto call = [&] {
-    return planner.call("plan", step, problem.time_budget_ns, Answers::no_solution_or_timeout, [&] {
+    return planner.call("plan", step, problem.time_budget_ns, Answers::plan, [&] {
       const std::int64_t before_ns = processor_time_ns();
       const std::int32_t status = table.plan(planner.self(), &problem, &sink.c);
       processor_ns = processor_time_ns() - before_ns;

@@ -23,16 +23,13 @@ constexpr double search_m = 3.0;
 
 void PathTracker::set_path(Path path) {
   clear();
-  for (const Waypoint& waypoint : path) {
-    points_.push_back(toolkit::position(waypoint));
-    goal_of_point_.push_back(waypoint.goal_index);
-  }
+  for (const Waypoint& waypoint : path) points_.push_back(toolkit::position(waypoint));
   toolkit::arc_lengths(points_, arcs_);
+  leads_to_goal_ = !path.is_partial();
 }
 
 void PathTracker::clear() {
   points_.clear();
-  goal_of_point_.clear();
   arcs_.clear();
   fresh_ = true;
   led_in_ = false;
@@ -54,7 +51,6 @@ void PathTracker::update(const Observation& now) {
 void PathTracker::lead_in(const Observation& now) {
   if (points_.size() != 1) return;
   points_.insert(points_.begin(), toolkit::position(now.pose));
-  goal_of_point_.insert(goal_of_point_.begin(), goal_of_point_.front());
   toolkit::arc_lengths(points_, arcs_);
   led_in_ = true;
 }
@@ -77,23 +73,13 @@ void PathTracker::advance(Vec2 robot) {
 }
 
 void PathTracker::find_end(const Observation& now) {
-  const std::size_t last = points_.size() - 1;
-  // the last waypoint of the current goal; the path of a tour continues after it
-  std::size_t goal_end = last;
-  if (goal_of_point_[0] <= now.goal_index) {
-    const auto beyond = std::upper_bound(goal_of_point_.begin(), goal_of_point_.end(), now.goal_index);
-    goal_end = static_cast<std::size_t>(beyond - goal_of_point_.begin()) - 1;
-  }
-  const std::size_t released = std::min<std::size_t>(now.released_waypoint + (led_in_ ? 1u : 0u), last);
-  const std::size_t end = std::min(goal_end, released);
-
-  end_m_ = arcs_[end];
-  stop_.position = points_[end];
+  end_m_ = arcs_.back();
+  stop_.position = points_.back();
   stop_.heading = std::numeric_limits<double>::quiet_NaN();
   stop_.tolerance_m = now.goal.tolerance_m;
   stop_.tolerance_rad = now.goal.tolerance_rad;
-  stop_.is_goal = end == goal_end && toolkit::distance(points_[end], toolkit::position(now.goal.pose)) <=
-                                         std::max(now.goal.tolerance_m, 1e-3);
+  stop_.is_goal = leads_to_goal_ && toolkit::distance(points_.back(), toolkit::position(now.goal.pose)) <=
+                                        std::max(now.goal.tolerance_m, 1e-3);
   if (stop_.is_goal) {
     stop_.position = toolkit::position(now.goal.pose);
     stop_.heading = now.goal.pose.theta;

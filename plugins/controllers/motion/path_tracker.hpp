@@ -14,7 +14,7 @@ struct StopPoint {
   double heading = 0.0;      // NaN: any
   double tolerance_m = 0.2;  // the robot has arrived within this distance
   double tolerance_rad = 0.0;
-  bool is_goal = false;  // false: the last released waypoint, which the robot passes once more are released
+  bool is_goal = false;  // false: the end of a partial path, which the robot passes once it is handed more
 };
 
 // Tracks the robot's progress along the path. Progress never decreases and never jumps to a later part of the path that
@@ -50,9 +50,9 @@ class PathTracker {
   void advance(Vec2 robot);
 
   std::vector<Vec2> points_;
-  std::vector<std::uint32_t> goal_of_point_;
   std::vector<double> arcs_;
-  bool fresh_ = false;   // no update() since set_path()
+  bool leads_to_goal_ = false;  // the path is not partial
+  bool fresh_ = false;          // no update() since set_path()
   bool led_in_ = false;  // the robot's position was prepended to a path of one waypoint
   double progress_m_ = 0.0;
   double end_m_ = 0.0;

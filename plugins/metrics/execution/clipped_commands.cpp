@@ -10,7 +10,6 @@ Descriptor ClippedCommands::describe() {
   return describe_metric("dmrp.metric.clipped_commands", "Clipped commands")
       .summary("commands that the robot's drive cannot execute")
       .source("own definition")
-      .channels(DMRP_CHANNEL_CALLS)
       .value("clipped_commands", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "number of commands that the host clipped: beyond the velocity limits or the ability of the drive "
              "(sideways, tighter than the steering allows); system: sum over robots; undefined if planning failed");
@@ -21,8 +20,8 @@ void ClippedCommands::begin(const dmrp_plan* plan) {
 }
 
 void ClippedCommands::observe(const Sample& sample) {
-  for (const Call& call : sample.calls)
-    if (call.kind == DMRP_CALL_CLIPPED && call.robot < counts_.size()) counts_[call.robot] += 1.0;
+  for (const RobotEvent& event : sample.events)
+    if (event.kind == DMRP_ROBOT_EVENT_CLIPPED && event.robot < counts_.size()) counts_[event.robot] += 1.0;
 }
 
 void ClippedCommands::finish(const TrialEnd&, MetricSink& sink) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "metrics/execution/recoveries.hpp"
 
-#include <dmrp/recovery.h>
+#include <dmrp/robot_event.h>
 
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -11,7 +11,7 @@
 namespace dmrp::metrics {
 namespace {
 
-std::string name_of(std::int32_t step) {
+std::string name_of(std::uint32_t step) {
   switch (step) {
     case DMRP_RECOVERY_CLEAR_COSTMAP:
       return "clear_costmap";
@@ -34,7 +34,7 @@ Descriptor Recoveries::describe() {
   return describe_metric("dmrp.metric.recoveries", "Recoveries")
       .summary("how often robots recovered ([recovery] of the experiment)")
       .source("own definition")
-      .channels(DMRP_CHANNEL_CALLS | DMRP_CHANNEL_RECOVERIES)
+      .channels(DMRP_CHANNEL_RECOVERIES)
       .value("recoveries", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "number of recoveries; system: sum over robots; undefined if planning failed");
 }
@@ -46,18 +46,17 @@ void Recoveries::begin(const dmrp_plan* plan) {
 }
 
 void Recoveries::observe(const Sample& sample) {
-  for (const Call& call : sample.calls) {
-    if (call.kind != DMRP_CALL_RECOVERY || call.robot >= open_.size()) continue;
-    const std::int64_t began_ns = sample.t_ns - sample.dt_ns;  // calls are those since the last sample
-    if (call.status == DMRP_RECOVERY_NONE) {
-      close(call.robot, began_ns);
-    } else if (open_[call.robot] >= 0) {
-      recoveries_[static_cast<std::size_t>(open_[call.robot])].steps += ", " + name_of(call.status);
+  for (const RobotEvent& event : sample.events) {
+    if (event.kind != DMRP_ROBOT_EVENT_RECOVERY || event.robot >= open_.size()) continue;
+    if (event.detail == DMRP_RECOVERY_NONE) {
+      close(event.robot, event.t_ns);
+    } else if (open_[event.robot] >= 0) {
+      recoveries_[static_cast<std::size_t>(open_[event.robot])].steps += ", " + name_of(event.detail);
     } else {
-      open_[call.robot] = static_cast<std::int64_t>(recoveries_.size());
-      recoveries_.push_back(
-          {call.robot, began_ns, began_ns, name_of(call.status), toolkit::position(sample.robots[call.robot].pose)});
-      counts_[call.robot] += 1.0;
+      open_[event.robot] = static_cast<std::int64_t>(recoveries_.size());
+      recoveries_.push_back({event.robot, event.t_ns, event.t_ns, name_of(event.detail),
+                             toolkit::position(sample.robots[event.robot].pose)});
+      counts_[event.robot] += 1.0;
     }
   }
 }

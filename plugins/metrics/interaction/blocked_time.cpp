@@ -12,7 +12,7 @@ Descriptor BlockedTime::describe() {
   const auto both = Subjects::system_and_robots;
   return describe_metric("dmrp.metric.blocked_time", "Blocked time")
       .summary("time without progress, by its cause, as the host's referee sees it")
-      .source("own definition: sums over the classes of dmrp/referee.h")
+      .source("own definition: sums over the classes of dmrp/robot_event.h")
       .value("blocked_time", "s", lower, both,
              "active time of a robot that may drive and gained less than 0.2 m in its last 20 s: the sum of the next "
              "three; undefined if planning failed, as all of these, and in traces of hosts before the referee")

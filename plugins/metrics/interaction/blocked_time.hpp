@@ -2,7 +2,7 @@
 // blocked_time.hpp: the time in which robots make no progress, by its cause.
 #pragma once
 
-#include <dmrp/referee.h>
+#include <dmrp/robot_event.h>
 
 #include <array>
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace dmrp::metrics {
 Descriptor OpenStandstill::describe() {
   return describe_metric("dmrp.metric.open_standstill", "Standstill in the open")
       .summary("robots that stand although they may drive and nobody is in their way")
-      .source("own definition: the class STUCK of dmrp/referee.h")
+      .source("own definition: the class STUCK of dmrp/robot_event.h")
       .value("open_standstills", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "number of times that the referee saw the robot stuck, and not circling, for lasting_s or more: it gained "
              "less than 0.2 m in its last 20 s, no order holds it, and nobody is on the next metre of its course; "

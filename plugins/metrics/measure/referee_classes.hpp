@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// referee_classes.hpp: what each robot does, as the referee tells in the trace (dmrp/referee.h).
+// referee_classes.hpp: what each robot does, as the referee tells in the trace (dmrp/robot_event.h).
 #pragma once
 
-#include <dmrp/referee.h>
+#include <dmrp/robot_event.h>
 
 #include <cstdint>
 #include <dmrp/plugin.hpp>
@@ -30,12 +30,11 @@ class RefereeClasses {
 
   void observe(const Sample& sample) {
     active_.observe(sample);
-    for (const Call& call : sample.calls) {
-      if (call.kind != DMRP_CALL_CLASS || call.robot >= classes_.size()) continue;
-      const auto bits = static_cast<std::uint32_t>(call.status);
-      // calls are those since the last sample: the class holds in the step that ended with this one
-      classes_[call.robot] = {bits & DMRP_CLASS_MASK, call.other, (bits & DMRP_CLASS_CIRCLING) != 0,
-                              sample.t_ns - sample.dt_ns};
+    for (const RobotEvent& event : sample.events) {
+      if (event.kind != DMRP_ROBOT_EVENT_CLASS || event.robot >= classes_.size()) continue;
+      // events are those since the last sample: the class holds in the step that ended with this one
+      classes_[event.robot] = {event.detail & DMRP_CLASS_MASK, event.other, (event.detail & DMRP_CLASS_CIRCLING) != 0,
+                               event.t_ns};
       are_known_ = true;
     }
   }

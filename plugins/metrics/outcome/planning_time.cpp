@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "metrics/outcome/planning_time.hpp"
 
-#include <dmrp/draft/processor_time.h>
-
 #include "metrics/measure/describe_metric.hpp"
 
 namespace dmrp::metrics {
@@ -11,26 +9,18 @@ Descriptor PlanningTime::describe() {
   return describe_metric("dmrp.metric.planning_time", "Planning time")
       .summary("processor time of the call that made the first plan")
       .source("Hu et al., DMRP-Bench, ICRA 2026: planning time")
-      .channels(DMRP_CHANNEL_CALLS)
       .value("planning_time", "ms", Direction::lower_is_better, Subjects::system,
-             "processor time of the first plan, all threads; undefined if planning failed, and in traces that have "
-             "wall times alone")
+             "processor time of the first plan, all threads; undefined if planning failed")
       .wall_clock();
 }
 
 void PlanningTime::begin(const dmrp_plan* plan) {
-  planned_ = plan != nullptr && !world().robots().empty();
-  first_ns_.reset();
-}
-
-void PlanningTime::observe(const Sample& sample) {
-  if (first_ns_) return;
-  for (const Call& call : sample.calls)
-    if (call.kind == DMRP_CALL_PLAN_PROCESSOR_TIME && !first_ns_) first_ns_ = call.duration_ns;
+  const bool is_known = plan && plan->processor_ns >= 0 && !world().robots().empty();
+  planning_time_ms_ = is_known ? static_cast<double>(plan->processor_ns) / 1e6 : undefined;
 }
 
 void PlanningTime::finish(const TrialEnd&, MetricSink& sink) {
-  sink.system("planning_time", planned_ && first_ns_ ? static_cast<double>(*first_ns_) / 1e6 : undefined);
+  sink.system("planning_time", planning_time_ms_);
 }
 
 }  // namespace dmrp::metrics

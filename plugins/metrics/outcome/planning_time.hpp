@@ -2,9 +2,7 @@
 // planning_time.hpp: the processor time of the first planner call.
 #pragma once
 
-#include <cstdint>
 #include <dmrp/plugin.hpp>
-#include <optional>
 
 namespace dmrp::metrics {
 
@@ -12,12 +10,11 @@ class PlanningTime final : public Metric {
  public:
   static Descriptor describe();
   void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
+  void observe(const Sample&) override {}
   void finish(const TrialEnd& end, MetricSink& sink) override;
 
  private:
-  bool planned_ = false;
-  std::optional<std::int64_t> first_ns_;
+  double planning_time_ms_ = undefined;
 };
 
 }  // namespace dmrp::metrics

@@ -14,8 +14,6 @@ const char* reason(std::uint32_t failure) {
       return "time limit";
     case DMRP_FAILURE_OSCILLATION:
       return "oscillation";
-    case DMRP_FAILURE_DEADLOCK:
-      return "deadlock";
     case DMRP_FAILURE_CONTROLLER:
       return "no command from its controller";
     case DMRP_FAILURE_NO_PLAN:

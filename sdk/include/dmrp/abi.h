@@ -8,14 +8,19 @@
 // - *Values* (values.h) are frozen: they have no struct_size and never get another field.
 // - *Growable structs* begin with `uint32_t struct_size`, cross by pointer only and have no implicit padding.
 //   New fields are appended. The maker of a struct sets struct_size to the sizeof it was compiled with; the reader
-//   checks DMRP_HAS(pointer, field) for every field newer than v1.0.
+//   checks DMRP_HAS(pointer, field) for every field newer than v1.0. Every appended field names its absent value, which
+//   a reader takes where the maker's struct does not have it, and which the host fills in where it passes on what an
+//   older plugin made.
 // - *Array elements* cross as pointer, count and the owner's stride in bytes; access them with DMRP_AT, never with [].
 //   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS). Only the contract
-//   appends fields: what a plugin appends for itself is not passed on.
+//   appends fields: what a plugin appends for itself is not passed on. Strides are multiples of 8. A pointer to a single
+//   element has its stride too, unless it points into an array that has one.
+// - Appended fields stand in `#if DMRP_TARGET_MINOR >= N`. A plugin that a host 1.0 shall load is compiled with
+//   DMRP_TARGET_MINOR 0, sees the structs of 1.0 alone, and so may copy whole elements.
 // - *Output structs* are allocated, zeroed and sized by the caller; the callee never writes past struct_size, nor past
 //   the stride of an output array (DMRP_AT_OUT). Nothing that may grow is embedded in another struct.
 // - `reserved` fields are zero: a later minor version may give them a meaning in which zero is as before. A reader ignores
-//   them in what the host hands out; the host refuses paths and events in which a plugin has set them.
+//   them in what the host hands out; the host refuses what a plugin hands in with one of them set.
 // - *Constants* are open lists unless a header says otherwise: a minor version may add to them, so readers skip, or
 //   treat as the header says, what they do not know.
 // - Pointers are not NULL, and functions in a table are there, unless a header says that they may be NULL.
@@ -51,7 +56,12 @@
 
 // Until v1 is frozen the contract may change, so host and plugin must have the same draft number.
 // It becomes zero with the freeze.
-#define DMRP_ABI_DRAFT 2
+#define DMRP_ABI_DRAFT 3
+
+// The lowest minor version of the host that a plugin asks for: it sees no later field, and entry.min_host_minor is this.
+#ifndef DMRP_TARGET_MINOR
+#define DMRP_TARGET_MINOR DMRP_ABI_MINOR
+#endif
 
 // Whether the struct behind `pointer` is long enough to hold `field`.
 #define DMRP_HAS(pointer, field)     \
@@ -70,8 +80,13 @@
 
 // Whatever visibility a plugin library is compiled with: marks its exported object, and the variables of the C++ layer
 // and the toolkit, each library's own (gcc otherwise makes an inline variable one object for the process).
+#if defined(_MSC_VER)
+#define DMRP_EXPORT __declspec(dllexport)
+#define DMRP_LOCAL
+#else
 #define DMRP_EXPORT __attribute__((visibility("default")))
 #define DMRP_LOCAL __attribute__((visibility("hidden")))
+#endif
 
 #if defined(__cplusplus)
 #define DMRP_STATIC_ASSERT(condition, name) static_assert(condition, #name)
@@ -80,6 +95,8 @@
 #else
 #define DMRP_STATIC_ASSERT(condition, name) typedef char dmrp_assert_##name[(condition) ? 1 : -1]
 #endif
+
+#define DMRP_NOBODY 0xFFFFFFFFu  // an index that is no robot's
 
 // Asserts that a struct has no padding: its size is the sum of its fields. Compilation fails where a compiler pads.
 #define DMRP_ASSERT_SIZE(type, bytes) DMRP_STATIC_ASSERT(sizeof(type) == (bytes), size_of_##type)

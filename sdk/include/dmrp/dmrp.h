@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 // dmrp.h: includes the whole C contract.
 //
-// What it leaves for later: messages between robots come as an extension (until then a central controller, or ids under
-// "draft/"), velocities at waypoints as appended fields (path.h), a third dimension with v2.
+// What it leaves for later: messages between robots come as an extension (until then a central controller, or an
+// extension of a plugin's own), velocities at waypoints as appended fields (path.h), a third dimension with v2.
 #ifndef DMRP_DMRP_H
 #define DMRP_DMRP_H
 
@@ -12,12 +12,11 @@
 #include "ext/lidar.h"
 #include "ext/local_costmap.h"
 #include "ext/obstacle_clusters.h"
+#include "ext/timing.h"
 #include "ext/walking_grid.h"
 #include "global_planner.h"
 #include "local_controller.h"
 #include "metric.h"
 #include "pedestrian_model.h"
-#include "recovery.h"
-#include "referee.h"
 
 #endif

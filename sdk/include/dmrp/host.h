@@ -44,14 +44,19 @@ struct dmrp_host {
   int32_t (*should_stop)(const dmrp_host* host);
 
   // An extension of the host (ext/*.h) by its id. NULL if the host does not offer it to this kind of plugin, or the
-  // descriptor does not declare it in `requires_` or `uses`. Ask in start(): extensions belong to the trial, and the
+  // descriptor does not declare it in `needed` or `uses`. Ask in start(): extensions belong to the trial, and the
   // host computes some (the costmap) only for instances that asked there. Valid until the next start() or destroy()
   // begins.
   // [step]
   const void* (*get_extension)(const dmrp_host* host, const char* id);
+
+  // Wall time, in nanoseconds, that is left of the current call's budget; 0 when it is used up, and outside a call. For a
+  // plugin that divides its time, as an anytime search. A trial in which it is asked is not repeatable.
+  // [any]
+  int64_t (*budget_left_ns)(const dmrp_host* host);
 };
 
-DMRP_ASSERT_SIZE(dmrp_host, 72);
+DMRP_ASSERT_SIZE(dmrp_host, 80);
 
 #ifdef __cplusplus
 }

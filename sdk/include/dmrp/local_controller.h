@@ -16,9 +16,10 @@ extern "C" {
 typedef struct dmrp_path_update {
   uint32_t struct_size;
   uint32_t robot;         // index
-  uint64_t revision;      // 1 for the robot's first path after start(), then one more with each; with full paths it
-                          // equals the plan's revision
+  uint64_t revision;      // 1 for the robot's first path after start(), then one more with each
   const dmrp_path* path;  // valid until the call returns: copy what you keep
+  uint32_t flags;         // DMRP_PATH_CONTINUES
+  uint32_t reserved;
 } dmrp_path_update;
 
 // The command for one control period, in the robot's frame.
@@ -48,10 +49,14 @@ typedef struct dmrp_local_controller {
   uint32_t struct_size;
   uint32_t reserved;
 
-  // A new path, or the continued path after a replan. Called for active robots alone, as the functions below.
-  // The path leads to the exact goals, which may lie off the centres of their cells; observation.progress_* and
-  // released_waypoint refer to it. After a replan it begins at the cell that the robot was driving to.
-  // With dispatch = "waypoint" it is a single waypoint, to be approached like a final goal.
+  // The path to follow. **It ends where the robot must stop**: at its current goal, or, if it is partial, where the order
+  // of the plan makes it wait, where the way turns back, or where the planner's window ends. A controller that drives to
+  // the end and stops there needs to know nothing else. When the robot may drive on, it is handed a path that continues
+  // the one before, often while it still drives: about as often as others replan.
+  // A path that is not partial leads to the goal itself, which may lie off the centre of its cell; observation.progress_*
+  // refer to the path. After a replan it begins at the cell that the robot was driving to.
+  // With dispatch = "waypoint" it is a single waypoint, to be approached like a goal.
+  // Called for active robots alone, as the functions below.
   // [step]
   int32_t (*set_path)(dmrp_instance* self, const dmrp_path_update* update);
 
@@ -72,7 +77,7 @@ typedef struct dmrp_local_controller {
   int32_t (*step_all)(dmrp_instance* self, const dmrp_fleet* fleet);
 } dmrp_local_controller;
 
-DMRP_ASSERT_SIZE(dmrp_path_update, 24);
+DMRP_ASSERT_SIZE(dmrp_path_update, 32);
 DMRP_ASSERT_SIZE(dmrp_command, 32);
 DMRP_ASSERT_SIZE(dmrp_fleet, 32);
 DMRP_ASSERT_SIZE(dmrp_local_controller, 32);

@@ -40,9 +40,9 @@ typedef struct dmrp_subject {
 } dmrp_subject;
 
 // How much an event matters. Open list: a host treats an unknown severity as DMRP_SEVERITY_INFO.
-#define DMRP_SEVERITY_INFO 0
-#define DMRP_SEVERITY_WARNING 1
-#define DMRP_SEVERITY_SERIOUS 2
+#define DMRP_SEVERITY_INFO 0u
+#define DMRP_SEVERITY_WARNING 1u
+#define DMRP_SEVERITY_SERIOUS 2u
 
 // An event for the time line.
 typedef struct dmrp_event {

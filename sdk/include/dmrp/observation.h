@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 // Kinds of agent. Open list: a controller avoids an agent of unknown kind as it does a person.
-#define DMRP_AGENT_ROBOT 1
-#define DMRP_AGENT_PERSON 2
+#define DMRP_AGENT_ROBOT 1u
+#define DMRP_AGENT_PERSON 2u
 
 // A moving robot or person. Array element.
 typedef struct dmrp_agent {
@@ -37,14 +37,15 @@ typedef struct dmrp_observation {
   dmrp_pose pose;       // estimated
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
-  // The current goal; with dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
+  // The current goal; where dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
   const dmrp_goal* goal;
   uint32_t goal_index;
   uint32_t goal_count;         // of the goals known so far
-  double progress_m;           // arc length along the path of the point that the robot has reached; never decreases
-                               // on one path
+  // Where the robot is on the path that its controller was handed last: the arc length of the point that it has reached,
+  // which never decreases on one path.
+  double progress_m;
   uint32_t progress_waypoint;  // last waypoint passed
-  uint32_t released_waypoint;  // last waypoint that may be passed; the last of the path with execution = "free"
+  uint32_t goal_stride;        // of `goal`
   const dmrp_limits* limits;
   const dmrp_footprint* footprint;
   const dmrp_agent* agents;  // other agents that `tracking` makes visible, with its noise; ordered by kind, then id

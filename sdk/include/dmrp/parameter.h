@@ -14,14 +14,14 @@ extern "C" {
 
 // Types of a parameter. PATH is a path that the host resolves against the folder of the experiment file; the manifest
 // lists the file's hash. Open list: a host skips a plugin with a parameter of a type that it does not know, and says so.
-#define DMRP_PARAM_BOOL 1          // integer 0 or 1
-#define DMRP_PARAM_INT 2           // integer
-#define DMRP_PARAM_DOUBLE 3        // number
-#define DMRP_PARAM_STRING 4        // text
-#define DMRP_PARAM_CHOICE 5        // text, one of spec.choices
-#define DMRP_PARAM_PATH 6          // text
-#define DMRP_PARAM_DOUBLE_ARRAY 7  // numbers, count
-#define DMRP_PARAM_STRING_ARRAY 8  // texts, count
+#define DMRP_PARAM_BOOL 1u          // integer 0 or 1
+#define DMRP_PARAM_INT 2u           // integer
+#define DMRP_PARAM_DOUBLE 3u        // number
+#define DMRP_PARAM_STRING 4u        // text
+#define DMRP_PARAM_CHOICE 5u        // text, one of spec.choices
+#define DMRP_PARAM_PATH 6u          // text
+#define DMRP_PARAM_DOUBLE_ARRAY 7u  // numbers, count
+#define DMRP_PARAM_STRING_ARRAY 8u  // texts, count
 
 // One value. Only the field of its type is meaningful; the others are zero. Array element.
 // Valid until create() returns.

@@ -19,13 +19,20 @@ typedef struct dmrp_waypoint {
   uint32_t reserved;
 } dmrp_waypoint;
 
-// One robot's path. Repeated positions are waits. The robot rests at the last waypoint.
+// Bits of a path's flags. Open list.
+#define DMRP_PATH_PARTIAL 1u  // it ends before the goal that it leads to: more follows
+
+// Bits that say how a path that a controller is handed differs from the one before. Open list.
+#define DMRP_PATH_CONTINUES 1u  // it begins as that one and ends elsewhere: what was computed for that one still holds
+
+// One robot's path. Repeated positions are waits. The robot rests at the last waypoint, which is a goal only if the path
+// is not partial: of a planner the robot's last goal, of what a controller is handed its current one.
 // Growable; an array of paths has a stride like every array.
 typedef struct dmrp_path {
   uint32_t struct_size;
   uint32_t count;
   uint32_t stride;  // of waypoints: sizeof(dmrp_waypoint) as the path's maker was compiled
-  uint32_t reserved;
+  uint32_t flags;   // DMRP_PATH_* bits
   const dmrp_waypoint* waypoints;
 } dmrp_path;
 

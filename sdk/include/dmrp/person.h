@@ -11,13 +11,13 @@ extern "C" {
 
 // How a person answers to robots. Open list: a model treats a reaction that it does not know as UNSPECIFIED.
 // (The others are the behaviours of HuNavSim, Perez-Higueras et al., RA-L 2023, section III.)
-#define DMRP_REACTION_UNSPECIFIED 0  // as the model and its parameters have it
-#define DMRP_REACTION_REGULAR 1      // avoids a robot as it avoids a person
-#define DMRP_REACTION_IMPASSIVE 2    // does not notice robots
-#define DMRP_REACTION_SURPRISED 3    // stops and looks at it
-#define DMRP_REACTION_CURIOUS 4      // walks up to it, then on
-#define DMRP_REACTION_SCARED 5       // keeps far away
-#define DMRP_REACTION_THREATENING 6  // gets in its way
+#define DMRP_REACTION_UNSPECIFIED 0u  // as the model and its parameters have it
+#define DMRP_REACTION_REGULAR 1u      // avoids a robot as it avoids a person
+#define DMRP_REACTION_IMPASSIVE 2u    // does not notice robots
+#define DMRP_REACTION_SURPRISED 3u    // stops and looks at it
+#define DMRP_REACTION_CURIOUS 4u      // walks up to it, then on
+#define DMRP_REACTION_SCARED 5u       // keeps far away
+#define DMRP_REACTION_THREATENING 6u  // gets in its way
 
 // A person. Array element.
 typedef struct dmrp_person {

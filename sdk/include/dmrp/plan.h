@@ -28,11 +28,12 @@ typedef struct dmrp_plan {
   uint64_t revision;  // 1 for the first plan
   int64_t from_ns;    // when it took effect
   int64_t step_duration_ns;
-  int64_t planning_ns;  // wall time that plan() took
+  int64_t planning_ns;   // wall time that plan() took
+  int64_t processor_ns;  // processor time of all threads of its process in plan(); -1: not known
 } dmrp_plan;
 
 DMRP_ASSERT_SIZE(dmrp_statistic, 16);
-DMRP_ASSERT_SIZE(dmrp_plan, 72);
+DMRP_ASSERT_SIZE(dmrp_plan, 80);
 
 #ifdef __cplusplus
 }

@@ -37,11 +37,11 @@ typedef struct dmrp_plugin {
   uint32_t reserved;
   dmrp_instance* self;
 
-  // The interface of the descriptor's kind: dmrp_global_planner, dmrp_local_controller, dmrp_pedestrian_model or
+  // The functions of the descriptor's kind: dmrp_global_planner, dmrp_local_controller, dmrp_pedestrian_model or
   // dmrp_metric. Owned by the plugin, valid as long as the instance; the host copies it.
-  const void* interface_;
+  const void* table;
 
-  // Begins a trial.
+  // Begins a trial, or says by DMRP_UNSUPPORTED that this one is not for the plugin.
   // [step]
   int32_t (*start)(dmrp_instance* self, const dmrp_start* start);
 

@@ -10,15 +10,16 @@ extern "C" {
 #endif
 
 // Drives. Open list; a host refuses robots that it cannot simulate.
-#define DMRP_KINEMATICS_DIFFERENTIAL 1  // commands (v_x, omega)
-#define DMRP_KINEMATICS_HOLONOMIC 2     // commands (v_x, v_y, omega)
-#define DMRP_KINEMATICS_ACKERMANN 3     // commands (v_x, omega); omega = v_x tan(steering angle) / wheelbase_m
+#define DMRP_KINEMATICS_DIFFERENTIAL 1u  // commands (v_x, omega)
+#define DMRP_KINEMATICS_HOLONOMIC 2u     // commands (v_x, v_y, omega)
+#define DMRP_KINEMATICS_ACKERMANN 3u     // commands (v_x, omega); omega = v_x tan(steering angle) / wheelbase_m
 // The wheels of an Ackermann drive point ahead at the start, and keep their angle where v_x = 0.
 
-// What a robot does. Open list. A finished robot becomes active again if it is given another goal.
-#define DMRP_ROBOT_ACTIVE 0    // still has a goal
-#define DMRP_ROBOT_FINISHED 1  // arrived at its last goal so far; parked there
-#define DMRP_ROBOT_FAILED 2    // declared failed by the host; stands where it is
+// What a robot does. A finished robot becomes active again if it is given another goal. Open list: a robot in a state that
+// a reader does not know stands where it is, as a failed one.
+#define DMRP_ROBOT_ACTIVE 0u    // still has a goal
+#define DMRP_ROBOT_FINISHED 1u  // arrived at its last goal so far; parked there
+#define DMRP_ROBOT_FAILED 2u    // declared failed by the host; stands where it is
 
 // The limits that the host enforces on every command. Equal for all plugins: no controller has limits of its own.
 typedef struct dmrp_limits {

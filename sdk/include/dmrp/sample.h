@@ -6,6 +6,8 @@
 #include "person.h"
 #include "plan.h"
 #include "robot.h"
+#include "robot_event.h"
+#include "task.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,12 +22,16 @@ typedef struct dmrp_robot_sample {
   uint32_t goal_index;    // the current goal
   double progress_m;      // along its path in force
   double steering_angle;  // rad; Ackermann only, otherwise 0
+  // What its controller answered since the last sample, before the host clipped or delayed it; NaN: nothing.
+  dmrp_twist answer;
+  int32_t answer_status;  // the status of that answer; DMRP_OK where there is none
+  uint32_t reserved;
 } dmrp_robot_sample;
 
 // Kinds of contact. Open list: a reader skips a contact of a kind that it does not know.
-#define DMRP_CONTACT_STATIC 1  // `a` a robot, `b` an index into world.shapes, or shape_count for the border
-#define DMRP_CONTACT_ROBOT 2   // `a`, `b` robots, a < b
-#define DMRP_CONTACT_PERSON 3  // `a` a robot, `b` an index into sample.people
+#define DMRP_CONTACT_STATIC 1u  // `a` a robot, `b` an index into world.shapes, or shape_count for the border
+#define DMRP_CONTACT_ROBOT 2u   // `a`, `b` robots, a < b
+#define DMRP_CONTACT_PERSON 3u  // `a` a robot, `b` an index into sample.people
 
 // Bits of a contact. Open list. Fault is passive motion safety (Bouraine, Fraichard, Salhi 2012): a body is at fault
 // unless it was at rest (slower than 0.05 m/s) or moving away from the other when they touched; a wall is at rest.
@@ -46,20 +52,29 @@ typedef struct dmrp_contact {
   double impact_speed;  // m/s, relative, along the normal, 0 or more; NaN: not the first sample of its event
 } dmrp_contact;
 
-// Kinds of call. Open list (recovery.h, draft/processor_time.h, referee.h).
-#define DMRP_CALL_PLAN 1
-#define DMRP_CALL_CONTROL 2
-#define DMRP_CALL_PEOPLE 3
-#define DMRP_CALL_CLIPPED 4  // no call: the command of `robot` was beyond its drive's ability, and the host clipped it
+// Kinds of call. Open list: a reader skips a call of a kind that it does not know.
+#define DMRP_CALL_PLAN 1u
+#define DMRP_CALL_CONTROL 2u
+#define DMRP_CALL_PEOPLE 3u
+#define DMRP_CALL_ASSIGN 4u
+
+#define DMRP_ALL_ROBOTS 0xFFFFFFFEu  // the robot of a call that concerns all
 
 // A plugin call since the last sample. Array element.
 typedef struct dmrp_call {
   uint32_t kind;        // DMRP_CALL_*
-  uint32_t robot;       // of DMRP_CALL_CONTROL, _CLIPPED, _RECOVERY and _CLASS; 0 otherwise
+  uint32_t robot;       // that the controller drives; DMRP_ALL_ROBOTS of a central one, of planner and people
   int32_t status;       // the returned status
-  uint32_t other;       // of DMRP_CALL_CLASS; 0 otherwise
+  uint32_t reserved;
   int64_t duration_ns;  // wall time
 } dmrp_call;
+
+// What a controller was handed to follow since the last sample. Array element.
+typedef struct dmrp_route {
+  uint32_t robot;         // index
+  uint32_t flags;         // DMRP_PATH_CONTINUES
+  const dmrp_path* path;  // valid until observe() returns
+} dmrp_route;
 
 // The state after a physics step; the first sample is the state at t = 0. Valid until observe() returns.
 typedef struct dmrp_sample {
@@ -80,12 +95,22 @@ typedef struct dmrp_sample {
   const dmrp_call* calls;
   uint32_t call_count;
   uint32_t call_stride;
+  const dmrp_robot_event* events;  // ordered by robot
+  uint32_t event_count;
+  uint32_t event_stride;
+  const dmrp_route* routes;  // ordered by robot
+  uint32_t route_count;
+  uint32_t route_stride;
+  const dmrp_task_event* task_events;  // in order of time
+  uint32_t task_event_count;
+  uint32_t task_event_stride;
 } dmrp_sample;
 
-DMRP_ASSERT_SIZE(dmrp_robot_sample, 96);
+DMRP_ASSERT_SIZE(dmrp_robot_sample, 128);
 DMRP_ASSERT_SIZE(dmrp_contact, 48);
 DMRP_ASSERT_SIZE(dmrp_call, 24);
-DMRP_ASSERT_SIZE(dmrp_sample, 96);
+DMRP_ASSERT_SIZE(dmrp_route, 16);
+DMRP_ASSERT_SIZE(dmrp_sample, 144);
 
 #ifdef __cplusplus
 }

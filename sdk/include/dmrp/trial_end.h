@@ -9,28 +9,25 @@
 extern "C" {
 #endif
 
-#define DMRP_NOBODY 0xFFFFFFFFu  // no robot
+// Why a trial ended. Open list: a reader takes an ending that it does not know for TIME_LIMIT.
+#define DMRP_ENDING_ARRIVED 1u  // all robots arrived
+#define DMRP_ENDING_TIME_LIMIT 2u
+#define DMRP_ENDING_DEADLOCK 3u  // nothing can move any more: a fixed point, or all wait for a robot that failed
+#define DMRP_ENDING_NO_PLAN 4u   // the planner found no plan: nothing moved
+#define DMRP_ENDING_DESERTED 5u  // there are no robots, and all people have left for good
+#define DMRP_ENDING_OVER 6u      // no robot is active, and not all have arrived
 
-// Why a trial ended. Open list.
-#define DMRP_ENDING_ARRIVED 1  // all robots arrived
-#define DMRP_ENDING_TIME_LIMIT 2
-#define DMRP_ENDING_DEADLOCK 3  // nothing can move any more: a fixed point, or all wait for a robot that failed
-#define DMRP_ENDING_NO_PLAN 4   // the planner found no plan: nothing moved
-#define DMRP_ENDING_DESERTED 5  // there are no robots, and all people have left for good
-#define DMRP_ENDING_OVER 6      // no robot is active, and not all have arrived
-
-// Why a robot failed. Open list.
-#define DMRP_FAILURE_NONE 0
-#define DMRP_FAILURE_TIMEOUT 1      // still made progress
-#define DMRP_FAILURE_OSCILLATION 2  // arrived after it circled, where the experiment excludes that
-#define DMRP_FAILURE_DEADLOCK 3     // no host of draft 2 gives it
-#define DMRP_FAILURE_CONTROLLER 4   // no command for 5 s
-#define DMRP_FAILURE_NO_PLAN 5
-#define DMRP_FAILURE_HELD_BEHIND 6     // waited, as the plan's order says, behind `culprit`
-#define DMRP_FAILURE_CIRCLING 7        // travelled or turned without progress
-#define DMRP_FAILURE_BLOCKED_PERSON 8  // a person stood on the next metre of its path
-#define DMRP_FAILURE_BLOCKED_ROBOT 9   // `culprit` stood there
-#define DMRP_FAILURE_STUCK 10          // nobody held or blocked it
+// Why a robot failed. Open list: a reader takes a failure that it does not know for TIMEOUT.
+#define DMRP_FAILURE_NONE 0u
+#define DMRP_FAILURE_TIMEOUT 1u      // still made progress
+#define DMRP_FAILURE_OSCILLATION 2u  // arrived after it circled, where the experiment excludes that
+#define DMRP_FAILURE_CONTROLLER 4u   // no command for 5 s
+#define DMRP_FAILURE_NO_PLAN 5u
+#define DMRP_FAILURE_HELD_BEHIND 6u     // waited, as the plan's order says, behind `culprit`
+#define DMRP_FAILURE_CIRCLING 7u        // travelled or turned without progress
+#define DMRP_FAILURE_BLOCKED_PERSON 8u  // a person stood on the next metre of its path
+#define DMRP_FAILURE_BLOCKED_ROBOT 9u   // `culprit` stood there
+#define DMRP_FAILURE_STUCK 10u          // nobody held or blocked it
 
 // The outcome of one robot. Array element.
 typedef struct dmrp_robot_end {

@@ -11,8 +11,8 @@ extern "C" {
 #endif
 
 // Kinds of shape. Open list: a shape of a kind that a reader does not know has the vertices of a polygon that contains it.
-#define DMRP_SHAPE_CIRCLE 1
-#define DMRP_SHAPE_POLYGON 2
+#define DMRP_SHAPE_CIRCLE 1u
+#define DMRP_SHAPE_POLYGON 2u
 
 // A static body: a wall, a shelf, a planter. Array element.
 typedef struct dmrp_shape {

@@ -16,6 +16,6 @@ int main(int argc, char** argv) {
     fprintf(stderr, "%s: another draft of the contract\n", argv[1]);
     return 1;
   }
-  for (uint32_t i = 0; i < entry->plugin_count(); ++i) puts(entry->descriptor(i)->id);
+  for (uint32_t i = 0; i < entry->plugin_count(entry); ++i) puts(entry->descriptor(entry, i)->id);
   return 0;
 }

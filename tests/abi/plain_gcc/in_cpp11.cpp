@@ -51,7 +51,7 @@ std::int32_t create(const dmrp_host*, const char* id, const dmrp_params*, dmrp_p
   if (std::strcmp(id, describe().id) != 0) return DMRP_ERROR;
   out->self = new (std::nothrow) dmrp_instance();
   if (!out->self) return DMRP_OUT_OF_MEMORY;
-  out->interface_ = &model;
+  out->table = &model;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;

@@ -63,7 +63,7 @@ void check(const dmrp_entry& entry, int number) {
   observation.footprint = &footprint;
   dmrp_command command{};
   command.struct_size = sizeof(command);
-  const auto& controller = *static_cast<const dmrp_local_controller*>(plugin.interface_);
+  const auto& controller = *static_cast<const dmrp_local_controller*>(plugin.table);
   expect(controller.step(plugin.self, &observation, &command) == DMRP_OK, "step");
   expect(command.v_x == 10.0 * number && command.omega == -1.0 * number,
          "library " + std::to_string(number) + " commands " + std::to_string(command.v_x) + ", " +

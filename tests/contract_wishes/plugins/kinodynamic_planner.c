@@ -147,7 +147,7 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   out->self = (dmrp_instance*)malloc(sizeof(dmrp_instance));
   if (!out->self) return DMRP_OUT_OF_MEMORY;
   out->self->host = host;
-  out->interface_ = &planner;
+  out->table = &planner;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;

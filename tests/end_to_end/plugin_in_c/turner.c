@@ -72,7 +72,7 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   out->self = malloc(sizeof(dmrp_instance));
   if (!out->self) return DMRP_OUT_OF_MEMORY;
   out->self->rate = DMRP_AT(dmrp_param_value, values->values, values->stride, 0)->number;
-  out->interface_ = &controller;
+  out->table = &controller;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;

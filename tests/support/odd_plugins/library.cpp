@@ -45,8 +45,8 @@ dmrp_descriptor described(std::uint32_t kind, const char* id, std::uint32_t flag
     out.uses_count = std::size(of_controllers);
   }
   if (kind == DMRP_KIND_METRIC) {
-    out.requires_ = of_metrics;
-    out.requires_count = std::size(of_metrics);
+    out.needed = of_metrics;
+    out.needed_count = std::size(of_metrics);
     out.values = &odd_value;
     out.value_count = 1;
     out.value_stride = sizeof(odd_value);
@@ -89,7 +89,7 @@ std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* pa
     const std::string beyond = self->after("overrun create");
     if (!beyond.empty()) std::memset(out, 0, out->struct_size + std::stoul(beyond));
     const std::int32_t status = self->status_of("create");
-    out->interface_ = table_of(kind, *self);
+    out->table = table_of(kind, *self);
     out->start = &start;
     out->destroy = &destroy;
     out->trial_end = &trial_end;

@@ -185,7 +185,7 @@ void Trip::send_path() {
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
   const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints_.size()), sizeof(dmrp_waypoint), 0,
                           waypoints_.data()};
-  const dmrp_path_update update = {sizeof(update), 0, course_.revision, &path};
+  const dmrp_path_update update = {sizeof(update), 0, course_.revision, &path, 0, 0};
   if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &update) != DMRP_OK)
     drive_.breaches.push_back("set_path() failed");
   waypoints_.shrink_to_fit();

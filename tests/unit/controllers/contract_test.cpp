@@ -77,7 +77,7 @@ TEST_CASE("A controller without a required extension does not start, without an 
   course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
   course.costmap = false;
   const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
-  if (library.find(controller.id)->requires_count > 0) {
+  if (library.find(controller.id)->needed_count > 0) {
     Trip trip(controller.id, course, controller.tuned);
     CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
   } else {

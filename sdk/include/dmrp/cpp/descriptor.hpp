@@ -37,7 +37,7 @@ class Descriptor {
 
   // Extensions of the host, by id (DMRP_EXT_*): the plugin cannot run without those that it needs, and uses the others
   // when they are available.
-  Descriptor& needs(std::string id) { return requires_.push_back(std::move(id)), *this; }
+  Descriptor& needs(std::string id) { return needed_.push_back(std::move(id)), *this; }
   Descriptor& uses(std::string id) { return uses_.push_back(std::move(id)), *this; }
 
   // Planners.
@@ -69,7 +69,7 @@ class Descriptor {
     std::uint32_t wall_clock, curve;
   };
   std::string id_, name_, version_, vendor_, license_, summary_, source_;
-  std::vector<std::string> requires_, uses_;
+  std::vector<std::string> needed_, uses_;
   std::vector<Value> values_;
   std::uint32_t connectivity_ = DMRP_CONNECTIVITY_NONE;
   std::uint32_t flags_ = 0;
@@ -85,7 +85,7 @@ class PublishedDescriptor {
       : descriptor_(std::move(descriptor)), parameters_(std::move(parameters)) {
     publish_parameters();
     publish_values();
-    requires_ = pointers(descriptor_.requires_);
+    needed_ = pointers(descriptor_.needed_);
     uses_ = pointers(descriptor_.uses_);
 
     c_.struct_size = sizeof(c_);
@@ -97,20 +97,15 @@ class PublishedDescriptor {
     c_.license = descriptor_.license_.c_str();
     c_.summary = descriptor_.summary_.c_str();
     c_.source = descriptor_.source_.c_str();
-    c_.requires_ = requires_.data();
-    c_.requires_count = static_cast<std::uint32_t>(requires_.size());
+    c_.needed = needed_.data();
+    c_.needed_count = static_cast<std::uint32_t>(needed_.size());
     c_.uses = uses_.data();
     c_.uses_count = static_cast<std::uint32_t>(uses_.size());
     c_.params = specs_.data();
     c_.param_count = static_cast<std::uint32_t>(specs_.size());
     c_.param_stride = sizeof(dmrp_param_spec);
-    c_.values = values_.data();
-    c_.value_count = static_cast<std::uint32_t>(values_.size());
-    c_.value_stride = sizeof(dmrp_metric_value_spec);
-    c_.connectivity = descriptor_.connectivity_;
-    c_.channels = descriptor_.channels_;
     c_.flags = descriptor_.flags_;
-    c_.kinematics = descriptor_.kinematics_;
+    c_.traits = traits();
   }
   PublishedDescriptor(const PublishedDescriptor&) = delete;
   PublishedDescriptor& operator=(const PublishedDescriptor&) = delete;
@@ -147,6 +142,24 @@ class PublishedDescriptor {
     }
   }
 
+  // Those of the plugin's kind.
+  const void* traits() {
+    switch (c_.kind) {
+      case DMRP_KIND_GLOBAL_PLANNER:
+        planner_ = {sizeof(planner_), descriptor_.connectivity_};
+        return &planner_;
+      case DMRP_KIND_LOCAL_CONTROLLER:
+        controller_ = {sizeof(controller_), descriptor_.kinematics_};
+        return &controller_;
+      case DMRP_KIND_METRIC:
+        metric_ = {sizeof(metric_), descriptor_.channels_, values_.data(), static_cast<std::uint32_t>(values_.size()),
+                   sizeof(dmrp_metric_value_spec)};
+        return &metric_;
+      default:
+        return nullptr;
+    }
+  }
+
   void publish_values() {
     for (const Descriptor::Value& v : descriptor_.values_) {
       values_.push_back({v.name.c_str(), v.unit.c_str(), v.description.c_str(), static_cast<std::uint32_t>(v.direction),
@@ -159,7 +172,10 @@ class PublishedDescriptor {
   std::vector<std::vector<const char*>> choices_, texts_;
   std::vector<dmrp_param_spec> specs_;
   std::vector<dmrp_metric_value_spec> values_;
-  std::vector<const char*> requires_, uses_;
+  std::vector<const char*> needed_, uses_;
+  dmrp_planner_traits planner_{};
+  dmrp_controller_traits controller_{};
+  dmrp_metric_traits metric_{};
   dmrp_descriptor c_{};
 };
 

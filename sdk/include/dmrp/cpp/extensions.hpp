@@ -10,6 +10,7 @@
 #include "../ext/lidar.h"
 #include "../ext/local_costmap.h"
 #include "../ext/obstacle_clusters.h"
+#include "../ext/timing.h"
 #include "../ext/walking_grid.h"
 
 namespace dmrp {
@@ -39,6 +40,10 @@ struct ExtensionId<dmrp_local_costmap> {
 template <>
 struct ExtensionId<dmrp_obstacle_clusters> {
   DMRP_LOCAL static constexpr const char* value = DMRP_EXT_OBSTACLE_CLUSTERS;
+};
+template <>
+struct ExtensionId<dmrp_timing> {
+  DMRP_LOCAL static constexpr const char* value = DMRP_EXT_TIMING;
 };
 template <>
 struct ExtensionId<dmrp_walking_grid> {

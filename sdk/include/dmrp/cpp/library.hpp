@@ -44,15 +44,16 @@ template <class Unit, class... Plugins>
 class Library {
  public:
   static constexpr dmrp_entry entry() {
-    return {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, &init, &deinit, &count, &descriptor, &create};
+    return {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, &init, &deinit, &count, &descriptor,
+            &create};
   }
 
  private:
-  static std::int32_t init(const dmrp_host* host) {
+  static std::int32_t init(const dmrp_entry* /*self*/, const dmrp_host* host) {
     return PluginAccess::guarded(host, [&] { return (load<Plugins>(Host(host)), ...), Status::ok; });
   }
-  static void deinit() { (unload<Plugins>(), ...); }
-  static std::uint32_t count() { return sizeof...(Plugins); }
+  static void deinit(const dmrp_entry* /*self*/) { (unload<Plugins>(), ...); }
+  static std::uint32_t count(const dmrp_entry* /*self*/) { return sizeof...(Plugins); }
 
   template <class P>
   static void load([[maybe_unused]] const Host& host) {
@@ -69,7 +70,7 @@ class Library {
     }
   }
 
-  static const dmrp_descriptor* descriptor(std::uint32_t index) {
+  static const dmrp_descriptor* descriptor(const dmrp_entry* /*self*/, std::uint32_t index) {
     constexpr std::array<const dmrp_descriptor& (*)(), sizeof...(Plugins)> published = {&describe<Plugins>...};
     try {
       return index < published.size() ? &published[index]() : nullptr;
@@ -94,7 +95,8 @@ class Library {
     return &table;
   }
 
-  static std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
+  static std::int32_t create(const dmrp_entry* /*self*/, const dmrp_host* host, const char* id,
+                             const dmrp_params* params, dmrp_plugin* out) {
     return PluginAccess::guarded(host, [&] {
       const bool known = (make_if<Plugins>(host, id, *params, out) || ...);
       if (!known) host->set_error(host, "no plugin of that id in this library");
@@ -107,7 +109,7 @@ class Library {
     if (std::strcmp(describe<P>().id, id) != 0) return false;
     auto plugin = std::make_unique<P>();
     PluginAccess::configure(*plugin, host, params);
-    out->interface_ = interface_table<P>();
+    out->table = interface_table<P>();
     out->start = &start;
     out->get_extension = &get_extension;
     out->destroy = &destroy;

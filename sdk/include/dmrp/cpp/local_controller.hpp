@@ -24,7 +24,6 @@ struct Observation {
         goal_count(c.goal_count),
         progress_m(c.progress_m),
         progress_waypoint(c.progress_waypoint),
-        released_waypoint(c.released_waypoint),
         limits(*c.limits),
         footprint(*c.footprint),
         agents(c.agents, c.agent_count, c.agent_stride),
@@ -41,7 +40,6 @@ struct Observation {
   std::uint32_t goal_count;
   double progress_m;
   std::uint32_t progress_waypoint;
-  std::uint32_t released_waypoint;
   const Limits& limits;
   const Footprint& footprint;
   Span<Agent> agents;
@@ -56,7 +54,7 @@ struct Command {
 
 class LocalController : public Plugin {
  public:
-  // Throw to report an error.
+  // The path ends where the robot must stop. Throw to report an error.
   virtual void set_path(Path path, std::uint64_t revision) = 0;
   virtual Status step(const Observation& now, Command& command) = 0;
 
@@ -69,7 +67,7 @@ class LocalController : public Plugin {
   static std::int32_t call_set_path(dmrp_instance* self, const dmrp_path_update* update) {
     auto& controller = detail::from_instance<LocalController>(self);
     return PluginAccess::guarded(controller, [&] {
-      controller.set_path(Path(*update->path), update->revision);
+      controller.set_path(Path(*update->path, update->flags), update->revision);
       return Status::ok;
     });
   }
@@ -127,7 +125,7 @@ class CentralController : public Plugin {
   static std::int32_t call_set_path(dmrp_instance* self, const dmrp_path_update* update) {
     auto& controller = detail::from_instance<CentralController>(self);
     return PluginAccess::guarded(controller, [&] {
-      controller.set_path(update->robot, Path(*update->path), update->revision);
+      controller.set_path(update->robot, Path(*update->path, update->flags), update->revision);
       return Status::ok;
     });
   }

@@ -15,6 +15,9 @@ using Person = dmrp_person;
 using RobotSample = dmrp_robot_sample;
 using Contact = dmrp_contact;
 using Call = dmrp_call;
+using RobotEvent = dmrp_robot_event;
+using Route = dmrp_route;
+using TaskEvent = dmrp_task_event;
 using Statistic = dmrp_statistic;
 using Subject = dmrp_subject;
 
@@ -45,7 +48,10 @@ struct Sample {
         robots(c.robots, c.robot_count, c.robot_stride),
         people(c.people, c.person_count, c.person_stride),
         contacts(c.contacts, c.contact_count, c.contact_stride),
-        calls(c.calls, c.call_count, c.call_stride) {}
+        calls(c.calls, c.call_count, c.call_stride),
+        events(c.events, c.event_count, c.event_stride),
+        routes(c.routes, c.route_count, c.route_stride),
+        task_events(c.task_events, c.task_event_count, c.task_event_stride) {}
 
   std::int64_t t_ns;
   std::int64_t dt_ns;
@@ -55,6 +61,9 @@ struct Sample {
   Span<Person> people;
   Span<Contact> contacts;
   Span<Call> calls;
+  Span<RobotEvent> events;
+  Span<Route> routes;  // Path(*routes[i].path) views one
+  Span<TaskEvent> task_events;
 };
 
 enum class Severity : std::uint32_t {

@@ -40,7 +40,8 @@ enum class Status : std::int32_t {
   timeout = DMRP_TIMEOUT,
   out_of_memory = DMRP_OUT_OF_MEMORY,
   error = DMRP_ERROR,
-  fatal = DMRP_FATAL
+  fatal = DMRP_FATAL,
+  unsupported = DMRP_UNSUPPORTED
 };
 
 enum class LogLevel : std::int32_t {
@@ -91,6 +92,7 @@ class Host {
   }
   void set_error(const std::string& text) const { c_->set_error(c_, text.c_str()); }
   bool should_stop() const { return c_->should_stop(c_) != 0; }
+  std::int64_t budget_left_ns() const { return c_->budget_left_ns(c_); }
   std::string library_path() const { return c_->library_path; }  // weights and other data are installed beside it
   const dmrp_host* c() const { return c_; }
 
@@ -107,7 +109,8 @@ class Plugin {
   Plugin& operator=(const Plugin&) = delete;
   virtual ~Plugin() = default;
 
-  // Begins a trial: reset all state of an earlier one. world() is set, extension() may be called.
+  // Begins a trial: reset all state of an earlier one. world() is set, extension() may be called. Status::unsupported
+  // says that this trial is not for the plugin.
   virtual Status start(const Start&) { return Status::ok; }
 
   // The trial has ended, without a fault: the place to free what belongs to it. Not called for metrics.

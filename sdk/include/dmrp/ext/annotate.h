@@ -18,8 +18,8 @@ extern "C" {
 #define DMRP_EXT_ANNOTATE "dmrp.annotate/1"
 
 // Roles of a trajectory. Open list: a host drops one that it does not know.
-#define DMRP_ANNOTATE_PREDICTED 1  // the trajectory that the plugin chose
-#define DMRP_ANNOTATE_CANDIDATE 2  // a trajectory that it considered
+#define DMRP_ANNOTATE_PREDICTED 1u  // the trajectory that the plugin chose
+#define DMRP_ANNOTATE_CANDIDATE 2u  // a trajectory that it considered
 
 // A trajectory in the world frame.
 typedef struct dmrp_trajectory {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <dmrp/descriptor.h>
-#include <dmrp/referee.h>
+#include <dmrp/robot_event.h>
 #include <dmrp/sample.h>
 #include <dmrp/status.h>
 #include <dmrp/trial_end.h>

@@ -119,7 +119,7 @@ TEST_CASE("mistakes in an experiment file") {
       {"\"test.controller\"", "\"test.psychic\"",
        "experiment.toml:15:7: test.psychic needs the extension org.example.telepathy/1, which this host does not "
        "offer to a local_controller (offered: dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, "
-       "dmrp.distance_field/1, dmrp.obstacle_clusters/1, draft/dmrp.timing/1)"},
+       "dmrp.distance_field/1, dmrp.obstacle_clusters/1, dmrp.timing/1)"},
       {"[[local_controller]]", "[[global_planner]]\nuse = \"test.planner\"\n[[local_controller]]",
        "experiment.toml:15:7: two of [[global_planner]] are called 'Planner': give one another 'label'"},
       {"[[local_controller]]",
@@ -404,7 +404,7 @@ TEST_CASE("a plugin that needs what the host lacks is refused where it is used")
   using dmrp::host::PluginInfo;
   CHECK(message(0, [](PluginInfo& planner) { planner.needs = {"dmrp.anotate/1"}; }) ==
         "experiment.toml:11:7: test.planner needs the extension dmrp.anotate/1, which this host does not offer to a "
-        "global_planner (offered: dmrp.annotate/1, draft/dmrp.timing/1) (did you mean 'dmrp.annotate/1'?)");
+        "global_planner (offered: dmrp.annotate/1, dmrp.timing/1) (did you mean 'dmrp.annotate/1'?)");
   CHECK(message(1, [](PluginInfo& controller) { controller.kinematics = 1u << DMRP_KINEMATICS_ACKERMANN; }) ==
         "experiment.toml:15:7: test.controller cannot drive robots with a differential drive");
 }

@@ -311,8 +311,8 @@ TEST_CASE("texts for display may be any bytes") {
   const char* const extensions[] = {"caf\xe9/1"};
   controller.uses = extensions;
   controller.uses_count = 1;
-  controller.requires_ = extensions;
-  controller.requires_count = 1;
+  controller.needed = extensions;
+  controller.needed_count = 1;
   dmrp_param_spec spec = parameter("gain", DMRP_PARAM_DOUBLE);
   spec.unit = "\xb0";
   spec.doc = "caf\xc3\xa9\x07";
@@ -336,17 +336,17 @@ TEST_CASE("extensions in `requires` and `uses` that the host lacks are told with
   const char* const misspelt[] = {"dmrp.lidr/1"};
   const char* const others[] = {"org.example.telepathy/1", DMRP_EXT_LIDAR};
   SECTION("required") {
-    controller.requires_ = misspelt;
-    controller.requires_count = 1;
+    controller.needed = misspelt;
+    controller.needed_count = 1;
     const Library library(DMRP_ODD_PLUGINS);
     CHECK(missing_extension(info_of(library, "test.odd.controller")) ==
           "needs the extension dmrp.lidr/1, which this host does not offer to a local_controller (offered: "
           "dmrp.annotate/1, dmrp.lidar/1, dmrp.local_costmap/1, dmrp.distance_field/1, dmrp.obstacle_clusters/1, "
-          "draft/dmrp.timing/1) (did you mean 'dmrp.lidar/1'?)");
+          "dmrp.timing/1) (did you mean 'dmrp.lidar/1'?)");
   }
   SECTION("required, by a plugin of another kind") {
     dmrp_descriptor& metric = odd.descriptor(odd_metric);
-    metric.requires_ = &others[1];
+    metric.needed = &others[1];
     const Library library(DMRP_ODD_PLUGINS);
     CHECK_THAT(missing_extension(info_of(library, "test.odd.metric")),
                Catch::StartsWith("needs the extension dmrp.lidar/1, which this host does not offer to a metric"));

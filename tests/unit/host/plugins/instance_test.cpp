@@ -97,7 +97,7 @@ TEST_CASE("function tables of newer plugins are read as far as they are known, s
       CHECK(fault.kind() == std::string(fault_kind::abi_breach));
       CHECK(fault.function() == std::string("create"));
       CHECK_THAT(fault.what(),
-                 Catch::StartsWith("returned OK but did not fill in dmrp_plugin.interface_->struct_size ("));
+                 Catch::StartsWith("returned OK but did not fill in dmrp_plugin.table->struct_size ("));
     }
   }
 }

@@ -24,8 +24,8 @@ class OddLibrary {
     if (!library) throw std::runtime_error(dlerror());
     entry_ = static_cast<dmrp_entry*>(dlsym(library, DMRP_ENTRY_SYMBOL));
     entry_before_ = *entry_;
-    for (std::uint32_t i = 0; i < entry_->plugin_count(); ++i)
-      before_.push_back(*const_cast<dmrp_descriptor*>(entry_->descriptor(i)));
+    for (std::uint32_t i = 0; i < entry_->plugin_count(entry_); ++i)
+      before_.push_back(*const_cast<dmrp_descriptor*>(entry_->descriptor(entry_, i)));
   }
   ~OddLibrary() {
     *entry_ = entry_before_;

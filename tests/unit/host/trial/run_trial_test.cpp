@@ -2,7 +2,6 @@
 // A trial and its metrics in this process, with plugins that check their inputs (trial_plugins.cpp).
 #include "host/trial/run_trial.hpp"
 
-#include <dmrp/draft/processor_time.h>
 #include <dmrp/ext/annotate.h>
 
 #include <catch2/catch.hpp>

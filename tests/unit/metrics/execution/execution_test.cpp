@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Smoothness, idle time and compute time: cases computed by hand.
-#include <dmrp/recovery.h>
+#include <dmrp/robot_event.h>
 #include <dmrp/status.h>
 
 #include <catch2/catch.hpp>

@@ -55,7 +55,7 @@ TEST_CASE("the time without progress is told by its cause") {
 TEST_CASE("in a trace without the referee's classes its sums are undefined") {
   SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
   fill(trial, 0.0, 40.0, [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; });
-  trial.end(40.0, {never, never}).failure(0, DMRP_FAILURE_DEADLOCK);
+  trial.end(40.0, {never, never}).failure(0, DMRP_FAILURE_STUCK);
   for (const char* id :
        {"dmrp.metric.blocked_time", "dmrp.metric.deadlock", "dmrp.metric.open_standstill", "dmrp.metric.first_cause"})
     for (const auto& [key, value] : measure(id, trial).values) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Success, path length, planning time, completion time, speed: cases computed by hand.
-#include <dmrp/draft/processor_time.h>
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-// draft/timing.h: lets a plugin say that its results depend on timing, as on a thread that it does not wait for: the
-// trial is then not repeatable. An extension of the host for all kinds of plugin, always optional. In C++ include
-// cpp/timing.hpp.
-//
-// A draft: it may change or go with any version, and dmrp.h does not include it.
-#ifndef DMRP_DRAFT_TIMING_H
-#define DMRP_DRAFT_TIMING_H
+// ext/timing.h: lets a plugin say that its results depend on timing, as on a thread that it does not wait for: the
+// trial is then not repeatable. An extension of the host for all kinds of plugin, always optional.
+#ifndef DMRP_EXT_TIMING_H
+#define DMRP_EXT_TIMING_H
 
 #include "../abi.h"
 
@@ -13,7 +10,7 @@
 extern "C" {
 #endif
 
-#define DMRP_DRAFT_TIMING "draft/dmrp.timing/1"
+#define DMRP_EXT_TIMING "dmrp.timing/1"
 
 typedef struct dmrp_timing dmrp_timing;
 struct dmrp_timing {
