@@ -35,7 +35,7 @@ if [[ ${3:-} == --refreeze ]]; then
   cp -r "$include"/dmrp/{*.h,plugin.hpp,cpp,ext} "$frozen/dmrp"
   echo "DisableFormat: true" >"$frozen/.clang-format"
   layout "$include" >"$frozen.txt"
-  echo "draft $draft is frozen"
+  echo "draft $draft is frozen; old_plugins.sh --record writes what plugins built from it answer"
   exit
 fi
 
