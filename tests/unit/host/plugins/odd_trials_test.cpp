@@ -52,8 +52,8 @@ TEST_CASE("a status that a function may not return is a breach that names it") {
       CHECK_THROWS_WITH(timeout_stage.fault(), "no fault");
     else
       check_fault(timeout_stage, fault_kind::abi_breach, function, "returned DMRP_TIMEOUT (3)");
-    OddStage unknown_stage(id, function + " 42", id == central ? id : "");
-    check_fault(unknown_stage, fault_kind::abi_breach, function, "status 42");
+    OddStage unknown_stage(id, function + " 99", id == central ? id : "");
+    check_fault(unknown_stage, fault_kind::abi_breach, function, "status 99");
     OddStage warning_stage(id, function + " 1", id == central ? id : "");
     CHECK_THROWS_WITH(warning_stage.fault(), "no fault");
   }
