@@ -168,6 +168,9 @@ void Referee::gain(std::uint32_t robot, const CoursePlace& course) {
   const double detour_m = std::clamp(advance_m - approach_m, 0.0, it.credit_m.value_or(0.0));
   if (it.credit_m) *it.credit_m -= detour_m;
   gained_m_[robot] += approach_m + detour_m;
+  if (gained_m_[robot] - it.counted_m < least_progress_m) return;
+  it.counted_m = gained_m_[robot];
+  it.gained_ns = world_.t_ns();
 }
 
 // The oldest moment kept is the latest that is a whole window old.

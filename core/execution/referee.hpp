@@ -92,6 +92,9 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
+  // Since when the robot has gained less than least_progress_m.
+  std::int64_t waits_since_ns(std::uint32_t robot) const { return robots_[robot].gained_ns; }
+
   // Changes of class since the last call, the first of all robots, as events of the trace (dmrp/robot_event.h).
   std::vector<dmrp_robot_event> take_changes() { return std::exchange(changes_, {}); }
 
@@ -117,6 +120,8 @@ class Referee {
     std::optional<double> credit_m;            // unset until a course leads to the goal
     std::uint64_t course = 0;                  // of arc_m
     double arc_m = 0.0;
+    double counted_m = 0.0;      // of gained_m_, at gained_ns
+    std::int64_t gained_ns = 0;  // when it had last gained least_progress_m more
     std::deque<Moment> window;  // up to the latest moment that is a whole window old
     double travelled_m = 0.0;
     double turned_rad = 0.0;

@@ -2,6 +2,7 @@
 // experiment.hpp: an experiment file, checked and complete. It determines every trial.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -48,6 +49,7 @@ struct Experiment {
   std::vector<PluginUse> local_controllers;  // may be empty if no scenario has robots
   std::vector<PluginUse> pedestrian_models;  // may be empty if no scenario has people
   std::vector<PluginUse> metrics;
+  std::vector<PluginUse> fallback_planners;  // of [simulation] replan_fallback, with their defaults
   bool time_limit_set = false;  // by [simulation]; otherwise each scenario has its own limit
   core::SimulationSettings simulation;
   core::RobotSettings robot;                     // the default type
@@ -62,6 +64,12 @@ struct Experiment {
 
 inline const core::SimulationSettings& simulation_of(const Experiment& experiment, const ScenarioVariant& variant) {
   return variant.simulation ? *variant.simulation : experiment.simulation;
+}
+
+// All lists of plugins in use.
+inline std::array<const std::vector<PluginUse>*, 5> plugin_lists(const Experiment& experiment) {
+  return {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models,
+          &experiment.metrics, &experiment.fallback_planners};
 }
 
 // One combination of scenario and plugins: indices into the experiment's lists.

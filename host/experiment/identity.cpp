@@ -95,6 +95,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
       const PluginInfo& info = (*uses)[i].info;
       identity[fmt::format("{}[{}].version", kind_name(info.kind), i)] = toml_text(info.version);
     }
+  for (const PluginUse& use : experiment.fallback_planners)
+    identity[fmt::format("fallback {}.version", use.info.id)] = toml_text(use.info.version);
   return identity;
 }
 

@@ -44,11 +44,27 @@ void check_replanning(const TomlTable& table, const core::SimulationSettings& si
                               static_cast<double>(simulation.control_period_ns) / 1e9));
 }
 
+// A robot reaches the end of its window, and stands there until the next plan.
+void check_window(const TomlTable& table, const core::ReplanSettings& replan) {
+  if (replan.period_ns > 0 && replan.period_steps > 0)
+    fail_at_one(table, {"replan_period_steps", "replan_period_s"},
+                "'replan_period_steps' and 'replan_period_s' are one period: give one of them");
+  if (replan.window_steps == 0 || (replan.period_steps > 0 && replan.period_steps <= replan.window_steps)) return;
+  fail_at_one(table, {"replan_window_steps", "replan_period_steps"},
+              fmt::format("'replan_window_steps' = {} needs 'replan_period_steps' from 1 to as many, not {}",
+                          replan.window_steps, replan.period_steps));
+}
+
+Setting plugin_id(const std::string& key, std::string& to) {
+  return {key, [&to](const TomlValue& value) { to = value.text(); }, [&to] { return toml_text(to); }, "the id of a plugin"};
+}
+
 }  // namespace
 
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation) {
   check_control_period(table, simulation);
   check_replanning(table, simulation);
+  check_window(table, simulation.replan);
 }
 
 Settings simulation_settings(core::SimulationSettings& to) {
@@ -72,7 +88,10 @@ Settings simulation_settings(core::SimulationSettings& to) {
           seconds_or_never("replan_period_s", to.replan.period_ns),
           number("replan_stray_m", to.replan.stray_m, 0.0, max_length_m),
           seconds_or_never("replan_stall_s", to.replan.stall_ns),
-          seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns)};
+          seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns),
+          integer("replan_period_steps", to.replan.period_steps, 0, 100'000),
+          integer("replan_window_steps", to.replan.window_steps, 0, 100'000),
+          plugin_id("replan_fallback", to.replan.fallback)};
 }
 
 namespace {

@@ -16,6 +16,8 @@
 #include "host/plugins/calls/timing_reason.hpp"
 #include "host/toml/swept_value.hpp"
 
+#include "host/process/fault_kind.hpp"
+
 namespace dmrp::host {
 
 // The declaration of a metric's value.
@@ -73,7 +75,13 @@ inline constexpr const char* succeeded = "succeeded";  // all robots arrived
 inline constexpr const char* failed = "failed";
 inline constexpr const char* fault = "fault";
 inline constexpr const char* skipped = "skipped";
+inline constexpr const char* unsupported = "unsupported";  // a plugin says that the trial is not for it
 }  // namespace trial_outcome
+
+// Of a trial that a fault of this kind ended.
+inline const char* outcome_of(std::string_view fault) {
+  return fault == fault_kind::unsupported ? trial_outcome::unsupported : trial_outcome::fault;
+}
 
 struct TrialRecord {
   std::uint64_t id = 0;
