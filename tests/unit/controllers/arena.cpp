@@ -116,7 +116,9 @@ void Trip::start() {
   t_ns_ = 0;
   settled_ns_ = 0;
   no_solution_s_ = 0.0;
-  sent_revision_ = 0;
+  drawn_revision_ = 0;
+  handed_ = 0;
+  update_ = 0;
   observation_ = {};
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
   goal_.tolerance_m = 0.2;
@@ -161,7 +163,8 @@ void Trip::control_period() {
 void Trip::decide() {
   if (finished()) return;
   if (course_.change) course_.change(course_, drive_.time_s, pose_);
-  if (course_.revision != sent_revision_) send_path();
+  if (course_.revision != drawn_revision_) draw_path();
+  hand_path();
   sensors_.set_boxes(course_.boxes);
   track();
   sensors_.look(pose_, t_ns_, bodies_, agents_);
@@ -169,8 +172,9 @@ void Trip::decide() {
   command();
 }
 
-void Trip::send_path() {
-  sent_revision_ = course_.revision;
+void Trip::draw_path() {
+  drawn_revision_ = course_.revision;
+  handed_ = 0;
   waypoints_.clear();
   for (const dmrp_vec2 point : course_.path) {
     dmrp_waypoint waypoint{};
@@ -183,12 +187,20 @@ void Trip::send_path() {
   toolkit::arc_lengths(waypoints_, arcs_);
   observation_.progress_m = 0.0;
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
-  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints_.size()), sizeof(dmrp_waypoint), 0,
-                          waypoints_.data()};
-  const dmrp_path_update update = {sizeof(update), 0, course_.revision, &path, 0, 0};
+}
+
+// The path up to the last waypoint that is released, whenever that is another one.
+void Trip::hand_path() {
+  const auto all = static_cast<std::uint32_t>(waypoints_.size());
+  const std::uint32_t count = course_.released < all ? course_.released + 1 : all;
+  if (count == handed_) return;
+  std::vector<dmrp_waypoint> handed(waypoints_.begin(), waypoints_.begin() + count);
+  const dmrp_path path = {sizeof(path), count, sizeof(dmrp_waypoint), count < all ? DMRP_PATH_PARTIAL : 0,
+                          handed.data()};
+  const dmrp_path_update update = {sizeof(update), 0, ++update_, &path, handed_ > 0 ? DMRP_PATH_CONTINUES : 0, 0};
+  handed_ = count;
   if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &update) != DMRP_OK)
     drive_.breaches.push_back("set_path() failed");
-  waypoints_.shrink_to_fit();
 }
 
 void Trip::track() {
@@ -223,13 +235,13 @@ void Trip::observe() {
   now.applied = applied;
   now.goal = &goal_;
   now.goal_count = 1;
+  now.goal_stride = sizeof(goal_);
   const toolkit::PathPlace place =
       toolkit::project(waypoints_, arcs_, toolkit::position(pose_), progress_m, progress_m + 2.0);
   now.progress_m = place.arc_m;
   drive_.path_deviation_m = std::max(drive_.path_deviation_m, place.distance_m);
   while (now.progress_waypoint + 1 < waypoints_.size() && arcs_[now.progress_waypoint + 1] <= place.arc_m)
     ++now.progress_waypoint;
-  now.released_waypoint = std::min(course_.released, static_cast<std::uint32_t>(waypoints_.size() - 1));
   now.limits = &limits_;
   now.footprint = &footprint_;
   now.agents = agents_.data();

@@ -64,7 +64,7 @@ struct Course {
   // `released`.
   std::function<void(Course&, double t_s, const dmrp_pose&)> change;
   std::uint64_t revision = 1;
-  std::uint32_t released = UINT32_MAX;
+  std::uint32_t released = UINT32_MAX;  // the waypoint at which the controller's path ends
 };
 
 struct Drive {
@@ -105,7 +105,8 @@ class Trip {
   void drive_on();
 
  private:
-  void send_path();
+  void draw_path();
+  void hand_path();
   void observe();
   void track();
   void command();
@@ -134,7 +135,9 @@ class Trip {
   std::vector<double> arcs_;
   std::vector<core::Disc> bodies_;
   std::vector<dmrp_agent> agents_;
-  std::uint64_t sent_revision_ = 0;
+  std::uint64_t drawn_revision_ = 0;  // of the course
+  std::uint32_t handed_ = 0;          // waypoints that the controller has; 0: none of this revision
+  std::uint64_t update_ = 0;
   std::int64_t t_ns_ = 0;
   dmrp_pose pose_{};
   dmrp_twist velocity_{};

@@ -198,8 +198,8 @@ TEST_CASE("a robot that circles and then arrives has succeeded, unless the exper
   });
   CHECK(ending == DMRP_ENDING_ARRIVED);
   bool circled = false;
-  for (const dmrp_call& change : match.referee.take_changes())
-    circled = circled || (change.status & DMRP_CLASS_CIRCLING) != 0;
+  for (const dmrp_robot_event& change : match.referee.take_changes())
+    circled = circled || (change.detail & DMRP_CLASS_CIRCLING) != 0;
   CHECK(circled);
   CHECK(match.end_of(0, ending).failure == (excludes ? DMRP_FAILURE_OSCILLATION : DMRP_FAILURE_NONE));
 }

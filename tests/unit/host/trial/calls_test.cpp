@@ -45,11 +45,37 @@ struct Guarded {
 TEST_CASE("statuses that leave the plugin usable come back with the time that the call took") {
   Guarded guarded;
   for (const std::int32_t status : {DMRP_OK, DMRP_WARNING, DMRP_NO_SOLUTION, DMRP_TIMEOUT}) {
-    const auto result = guarded.call({"test.plugin", "plan", 0, -1}, second_ns, Answers::no_solution_or_timeout,
-                                     [&] { return status; });
+    const auto result = guarded.call({"test.plugin", "plan", 0, -1}, second_ns, Answers::plan, [&] { return status; });
     CHECK(result.status == status);
     CHECK(result.duration_ns >= 0);
   }
+}
+
+TEST_CASE("statuses of later minor versions are read as NO_SOLUTION and ERROR") {
+  Guarded guarded;
+  for (const std::int32_t status : {16, 31})
+    for (const Answers answers : {Answers::no_solution, Answers::plan})
+      CHECK(guarded.call({"test.plugin", "plan", 0, -1}, second_ns, answers, [&] { return status; }).status ==
+            DMRP_NO_SOLUTION);
+  for (const std::int32_t status : {32, 63})
+    CHECK(guarded.fault([&] { return status; }).kind() == std::string(fault_kind::error_status));
+  for (const std::int32_t status : {8, 15, 16, 31, 64, -1})
+    CHECK(guarded.fault([&] { return status; }).kind() == std::string(fault_kind::abi_breach));
+}
+
+TEST_CASE("a plugin that asks how much time it has left gets it, and its results depend on timing") {
+  Guarded guarded;
+  const CallSite site = {"test.plugin", "plan", 0, -1};
+  CHECK(guarded.guard.budget_left_ns(&guarded.host) == 0);  // outside a call
+  std::int64_t left_ns = -1;
+  const auto ask = [&] { return left_ns = guarded.guard.budget_left_ns(&guarded.host), DMRP_OK; };
+  guarded.call(site, 0, Answers::plan, ask);
+  CHECK(left_ns == 0);
+  guarded.guard.reset_timing();
+  guarded.call(site, 3600 * second_ns, Answers::plan, ask);
+  CHECK(left_ns > 0);
+  CHECK(left_ns <= 3600 * second_ns);
+  CHECK(guarded.guard.timing() == std::vector<TimingReason>{{"test.plugin", "plan() asked how much time it has left"}});
 }
 
 TEST_CASE("statuses that end a trial are faults with the plugin's own words") {

@@ -145,7 +145,7 @@ TEST_CASE("success_at counts the robots that succeed within multiples of their l
 TEST_CASE("a robot that waits for another failed by the other's cause") {
   SyntheticTrial trial(6);
   trial.plan(std::vector<Points>(6, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(6, at(0, 0)));
-  trial.calls({becomes(0, DMRP_CLASS_MOVING)});
+  trial.events({becomes(0, DMRP_CLASS_MOVING)});
   trial.end(40.0, {never, never, never, never, never, 30.0});
   trial.failure(0, DMRP_FAILURE_HELD_BEHIND, 2).failure(1, DMRP_FAILURE_HELD_BEHIND, 2);
   trial.failure(2, DMRP_FAILURE_BLOCKED_ROBOT, 5);
