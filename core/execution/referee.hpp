@@ -122,7 +122,7 @@ class Referee {
     double arc_m = 0.0;
     double counted_m = 0.0;      // of gained_m_, at gained_ns
     std::int64_t gained_ns = 0;  // when it had last gained least_progress_m more
-    std::deque<Moment> window;  // up to the latest moment that is a whole window old
+    std::deque<Moment> window;   // up to the latest moment that is a whole window old
     double travelled_m = 0.0;
     double turned_rad = 0.0;
     dmrp_pose pose{};  // at the last control tick

@@ -3,8 +3,8 @@
 // The defaults are those of the benchmark's method.
 #pragma once
 
-#include <dmrp/robot_event.h>
 #include <dmrp/robot.h>
+#include <dmrp/robot_event.h>
 
 #include <array>
 #include <cstdint>

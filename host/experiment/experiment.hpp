@@ -50,7 +50,7 @@ struct Experiment {
   std::vector<PluginUse> pedestrian_models;  // may be empty if no scenario has people
   std::vector<PluginUse> metrics;
   std::vector<PluginUse> fallback_planners;  // of [simulation] replan_fallback, with their defaults
-  bool time_limit_set = false;  // by [simulation]; otherwise each scenario has its own limit
+  bool time_limit_set = false;               // by [simulation]; otherwise each scenario has its own limit
   core::SimulationSettings simulation;
   core::RobotSettings robot;                     // the default type
   std::vector<core::RobotSettings> robot_types;  // [robot_type.NAME] of this file

@@ -56,7 +56,8 @@ void check_window(const TomlTable& table, const core::ReplanSettings& replan) {
 }
 
 Setting plugin_id(const std::string& key, std::string& to) {
-  return {key, [&to](const TomlValue& value) { to = value.text(); }, [&to] { return toml_text(to); }, "the id of a plugin"};
+  return {key, [&to](const TomlValue& value) { to = value.text(); }, [&to] { return toml_text(to); },
+          "the id of a plugin"};
 }
 
 }  // namespace

@@ -14,9 +14,8 @@
 #include <vector>
 
 #include "host/plugins/calls/timing_reason.hpp"
-#include "host/toml/swept_value.hpp"
-
 #include "host/process/fault_kind.hpp"
+#include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
 

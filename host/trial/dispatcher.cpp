@@ -195,8 +195,8 @@ bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) con
 std::uint32_t Dispatcher::goal_waypoint(std::uint32_t robot) const {
   const auto& path = courses_[robot].path;
   const std::uint32_t current = world_.robots()[robot].goal_index;
-  const auto beyond = std::partition_point(path.begin(), path.end(),
-                                           [&](const dmrp_waypoint& waypoint) { return waypoint.goal_index <= current; });
+  const auto beyond = std::partition_point(
+      path.begin(), path.end(), [&](const dmrp_waypoint& waypoint) { return waypoint.goal_index <= current; });
   return beyond == path.begin() ? 0 : static_cast<std::uint32_t>(beyond - path.begin()) - 1;
 }
 
@@ -243,8 +243,8 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
     }
     const std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
-    positions.push_back(
-        {toolkit::position(path[next]), later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns), 0});
+    positions.push_back({toolkit::position(path[next]),
+                         later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns), 0});
   }
   return positions;
 }

@@ -206,8 +206,7 @@ Plan TrialPlugins::plan_by_fallback(const InForce* in_force, std::int64_t step) 
 }
 
 Plan TrialPlugins::make(const PlanSource& source, const PluginInfo& info, const InForce* in_force, std::int64_t step) {
-  Plan plan =
-      make_plan(source, info, variant_, world_, in_force, nanoseconds(experiment_.limits.planner_time_s), step);
+  Plan plan = make_plan(source, info, variant_, world_, in_force, nanoseconds(experiment_.limits.planner_time_s), step);
   if (plan.answered) note_call(DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, {plan.status, plan.planning_ns});
   return plan;
 }
@@ -313,8 +312,7 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     throw PluginFault(kind, site, text);
   };
   if (central_ && status != DMRP_OK)  // the status of a call has been checked
-    fail(fault_kind::abi_breach,
-         fmt::format("gave the status {}, which status.h does not allow a command", status));
+    fail(fault_kind::abi_breach, fmt::format("gave the status {}, which status.h does not allow a command", status));
   if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
     fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
   answers_.push_back({dmrp_twist{command.v_x, command.v_y, command.omega}, status});

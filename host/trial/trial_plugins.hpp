@@ -126,9 +126,9 @@ class TrialPlugins {
   const core::World& world_;
   FirstPlan first_plan_;
   const std::int64_t step_budget_ns_;
-  const PluginUse* planner_use_ = nullptr;     // nullptr without robots
-  Seat planner_;                               // no instance where it is not asked
-  const PluginUse* fallback_use_ = nullptr;    // nullptr without one
+  const PluginUse* planner_use_ = nullptr;   // nullptr without robots
+  Seat planner_;                             // no instance where it is not asked
+  const PluginUse* fallback_use_ = nullptr;  // nullptr without one
   Seat fallback_;
   Seat people_;                                // no instance: they stand
   std::map<std::string, core::Lidar> lidars_;  // by type of robot

@@ -27,8 +27,8 @@ std::string plan_text(const PlannerAnswer& answer, const PlanInput& input, const
     counts.push_back(path.size());
   }
   return nlohmann::json{
-      {"status", answer.status}, {"planning_ns", answer.planning_ns}, {"processor_ns", answer.processor_ns},
-      {"text", answer.text},     {"statistics", answer.statistics},   {"counts", counts},
+      {"status", answer.status},  {"planning_ns", answer.planning_ns}, {"processor_ns", answer.processor_ns},
+      {"text", answer.text},      {"statistics", answer.statistics},   {"counts", counts},
       {"partial", answer.partial}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

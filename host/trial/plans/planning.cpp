@@ -49,9 +49,9 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
   const dmrp_path path = copy_struct(theirs);
   if (path.count > 0 && !path.waypoints) return refuse(collected, robot, "its waypoints are NULL");
   if (path.count > 0 && !has_stride_v1_0<dmrp_waypoint>(path.stride))
-    return refuse(collected, robot,
-                  fmt::format("its stride is {}, at least {} and a multiple of 8", path.stride,
-                              size_v1_0<dmrp_waypoint>));
+    return refuse(
+        collected, robot,
+        fmt::format("its stride is {}, at least {} and a multiple of 8", path.stride, size_v1_0<dmrp_waypoint>));
   if ((path.flags & ~DMRP_PATH_PARTIAL) != 0)
     return refuse(collected, robot, fmt::format("its flags are {:#x}, which this host does not know", path.flags));
   std::vector<dmrp_waypoint> waypoints;
@@ -191,7 +191,12 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
     });
   };
   const auto result = with_reason(call, collected.refused);
-  PlannerAnswer answer{result.status, result.duration_ns, processor_ns, planner.guard().error(), {}, {},
+  PlannerAnswer answer{result.status,
+                       result.duration_ns,
+                       processor_ns,
+                       planner.guard().error(),
+                       {},
+                       {},
                        std::move(collected.statistics)};
   if (result.status == DMRP_NO_SOLUTION) return answer;
   if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())

@@ -78,8 +78,8 @@ struct StagedProblem {
 // A robot on its path: now, and when a plan that is made now takes effect, as the times of the path predict.
 struct PathPosition {
   dmrp_vec2 next_waypoint{};
-  dmrp_vec2 position_then{};      // its position now, if the plan takes effect at once
-  std::int64_t waiting_ns = 0;    // since its last progress
+  dmrp_vec2 position_then{};    // its position now, if the plan takes effect at once
+  std::int64_t waiting_ns = 0;  // since its last progress
 };
 
 // The plan in force while the next one is made.
