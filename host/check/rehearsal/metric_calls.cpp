@@ -60,6 +60,7 @@ class MetricCalls {
     std::vector<dmrp_call> calls;
     const std::int32_t planned = stage_.settings.fails_to_plan ? DMRP_NO_SOLUTION : DMRP_OK;
     if (step_ == 0 && robot_count_ > 0) calls.push_back({DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, planned, 0, 5'000'000});
+    if (step_ == 1) calls.push_back({DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, DMRP_OK, 0, 1'000'000});
     for (std::uint32_t i = 0; i < robot_count_; ++i) {
       const core::RobotState& robot = world.robots()[i];
       const double progress_m = std::abs(robot.pose.x - stage_.variant.scenario.robots[i].start.x);

@@ -151,6 +151,16 @@ TEST_CASE("compute time comes from the recorded calls") {
   CHECK_THAT(m.system("control_missed"), WithinAbs(100.0 * 100 / 202, 1e-12));
 }
 
+TEST_CASE("calls of a controller of all robots count for the system alone") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {at(0, 0), at(0, 0)}).calls({call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, 4.0)});
+  trial.end(1.0, {never, never});
+  const Measurement m = measure("dmrp.metric.compute_time", trial);
+  CHECK(m.system("control_call_mean") == 4.0);
+  CHECK(std::isnan(m.robot("control_call_mean", 0)));
+}
+
 TEST_CASE("clipped commands are counted by robot") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
