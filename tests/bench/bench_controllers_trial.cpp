@@ -134,7 +134,7 @@ class Recording {
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
       Driver& driver = *drivers_[i];
       const dmrp_pose& pose = world_.robots()[i].pose;
-      driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
+      driver.path = host::path_to_drive(plan.paths[i], false, world_.goals(i), plan.step_duration_ns);
       driver.progress.set_path(driver.path, {pose.x, pose.y});
       places_[i].path = driver.path;
       const dmrp_path path = path_of(driver.path);

@@ -223,19 +223,24 @@ TEST_CASE("a path with a reserved field or an unknown flag that is set is refuse
 
 TEST_CASE("a partial path is refused where no window was asked for") {
   OddStage stage(planner, "partial");
-  check_fault(stage, fault_kind::error_status, "plan", "partial");
+  check_fault(stage, fault_kind::bad_output, "plan", "robot 0 has a partial path, but the whole way was asked for");
 }
 
 TEST_CASE("a plugin may say that a trial is not for it, and that is no breach") {
-  for (const auto& [id, function] : {std::pair(planner, "start"),
-                                     {planner, "plan"},
-                                     {controller, "start"},
-                                     {people, "start"},
-                                     {metric, "start"},
-                                     {metric, "begin"}}) {
+  for (const auto& [id, function] :
+       {std::pair(planner, "start"), {planner, "plan"}, {controller, "start"}, {people, "start"}}) {
     INFO(id << " " << function);
     OddStage stage(id, std::string(function) + " 7");
     check_fault(stage, fault_kind::unsupported, function, "DMRP_UNSUPPORTED");
+  }
+  for (const std::string function : {"start", "begin"}) {
+    OddStage stage(metric, function + " 7");
+    stage.run();
+    const MetricResult result = stage.measured();
+    REQUIRE(result.values.size() == 1);
+    CHECK(result.values[0].metric == "odd");
+    CHECK_FALSE(result.values[0].value);
+    CHECK(result.events.empty());
   }
   for (const auto& [id, function] : {std::pair(controller, "set_path"),
                                      {controller, "step"},

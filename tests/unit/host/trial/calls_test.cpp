@@ -181,7 +181,7 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
 
   SECTION("a goal on the cell's centre only gives the last waypoint its heading") {
     goals[0].pose = {1.5, 0.5, 1.0};
-    const auto path = path_to_drive(planned, goals, 1800);
+    const auto path = path_to_drive(planned, false, goals, 1800);
     REQUIRE(path.size() == 2);
     CHECK(path[1].theta == 1.0);
     CHECK(std::isnan(path[0].theta));
@@ -189,7 +189,7 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
   }
   SECTION("a goal beside it is one leg more") {
     goals[0].pose = {1.7, 0.4, any};
-    const auto path = path_to_drive(planned, goals, 1800);
+    const auto path = path_to_drive(planned, false, goals, 1800);
     REQUIRE(path.size() == 3);
     CHECK(std::memcmp(path.data(), planned.data(), 2 * sizeof(dmrp_waypoint)) == 0);
     CHECK(path[2].x == 1.7);
@@ -197,13 +197,19 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
     CHECK(path[2].t_ns == 3600);
     CHECK(path[2].goal_index == 0);
   }
+  SECTION("a partial path does not lead there yet") {
+    goals[0].pose = {1.7, 0.4, 1.0};
+    const auto path = path_to_drive(planned, true, goals, 1800);
+    REQUIRE(path.size() == 2);
+    CHECK(std::memcmp(path.data(), planned.data(), 2 * sizeof(dmrp_waypoint)) == 0);
+  }
   SECTION("on a tour it is two: there, and back to where the plan goes on") {
     goals.resize(2);
     goals[0].pose = {1.7, 0.4, 1.0};
     goals[1].pose = {2.5, 0.5, 2.0};
     const std::vector<dmrp_waypoint> tour = {
         {0.5, 0.5, any, 0, 0, 0}, {1.5, 0.5, any, 1800, 0, 0}, {2.5, 0.5, any, 3600, 1, 0}};
-    const auto path = path_to_drive(tour, goals, 1800);
+    const auto path = path_to_drive(tour, false, goals, 1800);
     REQUIRE(path.size() == 5);
     CHECK(path[2].x == 1.7);
     CHECK(path[2].y == 0.4);
