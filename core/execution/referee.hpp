@@ -92,7 +92,8 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
-  // Changes of class since the last call, the first of all robots, as records of the trace (dmrp/referee.h).
+  // What there is to tell since the last call, as records of the trace (dmrp/referee.h): changes of class, first the
+  // class of every active robot; and that a standstill runs on.
   std::vector<dmrp_call> take_changes() { return std::exchange(changes_, {}); }
 
   // The outcome of every robot at the end of the trial.
@@ -155,6 +156,7 @@ class Referee {
   std::map<std::uint64_t, dmrp_vec2> people_;  // where each was when it last moved least_progress_m, by id
   std::int64_t still_since_ns_ = 0;
   bool continues_ = false;  // at a fixed point too
+  bool runs_on_ = false;    // since a fixed point
 };
 
 }  // namespace dmrp::core

@@ -12,6 +12,10 @@
 // active robot, MOVING, later ones have changes.
 #define DMRP_CALL_CLASS 7
 
+// Likewise no call: at this control tick nothing could move any more. Such a trial ends, but this one is drawn to run to
+// its limit. Once in a trial, for each active robot.
+#define DMRP_CALL_RUNS_ON 8
+
 // What an active robot does: exactly one of these, and bits. Open list.
 #define DMRP_CLASS_MOVING 0      // gained 0.2 m in its last 20 s, or begins
 #define DMRP_CLASS_SETTLING 1    // meets its goal's conditions

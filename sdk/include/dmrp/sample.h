@@ -55,7 +55,7 @@ typedef struct dmrp_contact {
 // A plugin call since the last sample. Array element.
 typedef struct dmrp_call {
   uint32_t kind;        // DMRP_CALL_*
-  uint32_t robot;       // of DMRP_CALL_CONTROL, _CLIPPED, _RECOVERY and _CLASS; 0 otherwise
+  uint32_t robot;       // of DMRP_CALL_CONTROL, _CLIPPED, _RECOVERY, _CLASS and _RUNS_ON; else 0
   int32_t status;       // the returned status
   uint32_t other;       // of DMRP_CALL_CLASS; 0 otherwise
   int64_t duration_ns;  // wall time
