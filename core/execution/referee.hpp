@@ -95,7 +95,8 @@ class Referee {
   // Since when the robot has gained less than least_progress_m.
   std::int64_t waits_since_ns(std::uint32_t robot) const { return robots_[robot].gained_ns; }
 
-  // Changes of class since the last call, the first of all robots, as events of the trace (dmrp/robot_event.h).
+  // What there is to tell since the last call, as events of the trace (dmrp/robot_event.h): changes of class, first the
+  // class of every active robot; and that a standstill runs on.
   std::vector<dmrp_robot_event> take_changes() { return std::exchange(changes_, {}); }
 
   // The outcome of every robot at the end of the trial.
@@ -160,6 +161,7 @@ class Referee {
   std::map<std::uint64_t, dmrp_vec2> people_;  // where each was when it last moved least_progress_m, by id
   std::int64_t still_since_ns_ = 0;
   bool continues_ = false;  // at a fixed point too
+  bool runs_on_ = false;    // since a fixed point
 };
 
 }  // namespace dmrp::core

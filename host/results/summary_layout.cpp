@@ -66,6 +66,8 @@ SummaryLayout parse(std::string_view text) {
       layout.arrived = value.get<std::string>();
     else if (key == "contacts")
       layout.contacts = value.get<std::string>();
+    else if (key == "after_standstill")
+      layout.after_standstill = value.get<std::string>();
     else if (key == "counts_failures")
       layout.counts_failures = value.get<std::vector<std::string>>();
     else if (key == "of_plans")

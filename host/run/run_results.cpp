@@ -106,7 +106,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   fmt::print("  {}\n", closing_line(layout, results.trials));
   if (const std::string by_type = arrivals_line(layout.arrived, scenarios, results.trials); !by_type.empty())
     fmt::print("  {}\n", by_type);
-  if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
+  for (const std::string& line : {failures_line(failures), standstills_line(layout, results.trials)})
+    if (!line.empty()) fmt::print("  {}\n", line);
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");
   if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");

@@ -209,14 +209,10 @@ bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const
 HandedPath Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
-  HandedPath handed;
+  if (by_waypoint()) return {{&course.path[course.target], 1}};
+  HandedPath handed = {{course.path.data(), course.cut + std::size_t{1}}};
+  if (!ends_at_goal(robot, course.cut)) handed.flags = DMRP_PATH_PARTIAL;
   if (std::exchange(course.is_begun, true)) handed.update_flags = DMRP_PATH_CONTINUES;
-  if (by_waypoint()) {
-    handed.waypoints = {&course.path[course.target], 1};
-  } else {
-    handed.waypoints = {course.path.data(), course.cut + std::size_t{1}};
-    if (!ends_at_goal(robot, course.cut)) handed.flags = DMRP_PATH_PARTIAL;
-  }
   return handed;
 }
 

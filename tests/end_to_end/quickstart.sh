@@ -30,11 +30,11 @@ arrived=$(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'suc
   fail "a robot stood for 15 s with nobody in its way"
 
 # every metric has a system value for every trial; only values of robots that did not arrive, of those that failed, of
-# contacts, and of groups of people, which the mall has not, may be undefined
+# contacts, of standstills, and of groups of people, which the mall has not, may be undefined
 [[ -z $(query "$scratch/run" "SELECT t.id, m.name FROM trial t, metric m WHERE NOT EXISTS (SELECT 1 FROM value v
    WHERE v.trial_id = t.id AND v.metric = m.name AND v.subject_kind = 'system')") ]] || fail "a metric has no value"
 [[ -z $(query "$scratch/run" "SELECT metric FROM value WHERE value IS NULL AND metric NOT IN ('completion_time', 'person_standoff',
-   'first_cause', 'culprit', 'held_behind', 'impact_speed')
+   'first_cause', 'culprit', 'held_behind', 'after_standstill', 'impact_speed')
    AND metric NOT LIKE 'group_%'") ]] ||
   fail "a value is undefined that should not be"
 

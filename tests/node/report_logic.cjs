@@ -98,6 +98,7 @@ function sample() {
       {scenario: 'office', robots: 2, global_planner: 'P', local_controller: '', pedestrian_model: '', metric: 'time'},
     ],
     failures_line: '',
+    standstills_line: '',
     failures: [],
     answers: [],
     replays: [],
@@ -368,6 +369,9 @@ const tests = {
       verdict.lines(data).map((line) => line.text),
       ['1 robot of 32 did not arrive, in 1 trial: 1 deadlock.', '16 trials without a fault, every one repeatable.']
     );
+    data.standstills_line = 'Of 6 robots at standstills that ran on to the time limit, 1 arrived after all';
+    assert.ok(verdict.lines(data).some((line) => line.text === `${data.standstills_line}.`));
+    data.standstills_line = '';
     data.trials.repeatable[3] = false;
     data.run.trials_planned = 20;
     data.faults = [{trial: 4}, {trial: 4}];

@@ -379,6 +379,8 @@ tests['the printed report is complete'] = async (browser) => {
   assert.ok(await opened.page.locator('#replay canvas').first().isVisible());
   assert.strictEqual(await opened.page.locator('#metrics table').isVisible(), false);
   assert.match(await opened.page.locator('#metrics').innerText(), /summary\.csv/);
+  // some lines of no use on paper, alone on the last page
+  assert.strictEqual(await opened.page.locator('#left-out').isVisible(), false);
   await close(opened);
 };
 

@@ -104,7 +104,7 @@ class MetricCalls {
     for (std::uint32_t i = 0; step_ == 0 && i < robot_count_; ++i)
       events.push_back({DMRP_ROBOT_EVENT_CLASS, i, world.t_ns(), DMRP_CLASS_MOVING, DMRP_NOBODY});
     const std::int64_t before_ns = world.t_ns() - stage_.variant.simulation.step_ns;
-    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_ROUTE + 1 && robot_count_ > 0)
+    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_RUNS_ON + 1 && robot_count_ > 0)
       events.push_back({static_cast<std::uint32_t>(step_), 0, before_ns, 0, DMRP_NOBODY});
     return events;
   }

@@ -12,6 +12,7 @@
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
 //   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp
+//   standstills_line  likewise
 //   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
 //                     ties_share}]
 //   completion        [{combination, robots, horizon_s, restricted_mean_s, low, high, arrived_share,

@@ -73,7 +73,12 @@ std::string check_structure(const dmrp_planning_problem& problem, const dmrp_pla
       return fmt::format("robot {} goes back to goal {}", index, w.goal_index);
     if (near(w.x, w.y, goal.pose.x, goal.pose.y) && w.goal_index == robot.first_goal_index + reached) ++reached;
   }
-  if (partial) return "";
+  if (partial) {
+    // every goal before the one that it heads for
+    if (heads_for > robot.first_goal_index + reached)
+      return fmt::format("robot {} does not visit its goal {}", index, robot.first_goal_index + reached);
+    return "";
+  }
   const dmrp_goal& last = *DMRP_AT(dmrp_goal, robot.goals, robot.goal_stride, robot.goal_count - 1);
   if (!near(path.back().x, path.back().y, last.pose.x, last.pose.y))
     return fmt::format("robot {} ends at ({}, {}), not at its goal ({}, {})", index, path.back().x, path.back().y,

@@ -66,11 +66,6 @@ Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s) {
           }};
 }
 
-Walker robot_of(const Trip& other) {
-  return {0.25, [&other](double, dmrp_vec2) { return toolkit::position(other.pose()); }, DMRP_AGENT_ROBOT,
-          [&other] { return other.velocity(); }};
-}
-
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
   std::vector<dmrp_vec2> path = {corners.front()};
   for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -359,27 +354,34 @@ Drive run(const std::string& controller, const Course& course, const ParamOverri
   return trip.result();
 }
 
-void drive_together(const std::vector<Trip*>& trips) {
-  const auto is_finished = [](const Trip* trip) { return trip->finished(); };
+std::vector<Drive> drive_together(const std::string& controller, std::vector<Course> courses,
+                                  const ParamOverrides& overrides) {
+  // the courses read the trips only while these drive
+  std::vector<std::unique_ptr<Trip>> trips(courses.size());
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    for (std::size_t k = 0; k < courses.size(); ++k) {
+      if (k == i) continue;
+      courses[i].walkers.push_back({courses[k].body.radius_m,
+                                    [&trips, k](double, dmrp_vec2) { return toolkit::position(trips[k]->pose()); },
+                                    DMRP_AGENT_ROBOT, [&trips, k] { return trips[k]->velocity(); }});
+    }
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    trips[i] = std::make_unique<Trip>(controller, std::move(courses[i]), overrides);
+  const auto is_finished = [](const auto& trip) { return trip->finished(); };
   while (!std::all_of(trips.begin(), trips.end(), is_finished)) {
-    for (Trip* trip : trips) trip->decide();
+    for (const auto& trip : trips) trip->decide();
     for (std::int64_t k = 0; k < period_ns / step_ns; ++k)
-      for (Trip* trip : trips) trip->drive_on();
+      for (const auto& trip : trips) trip->drive_on();
   }
+  std::vector<Drive> drives;
+  for (const auto& trip : trips) drives.push_back(trip->result());
+  return drives;
 }
 
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides) {
-  // the first reads the second's state only while it drives
-  const Trip* second_trip = nullptr;
-  one.walkers.push_back({0.25, [&](double, dmrp_vec2) { return toolkit::position(second_trip->pose()); },
-                         DMRP_AGENT_ROBOT, [&] { return second_trip->velocity(); }});
-  Trip first(controller, std::move(one), overrides);
-  other.walkers.push_back(robot_of(first));
-  Trip second(controller, std::move(other), overrides);
-  second_trip = &second;
-  drive_together({&first, &second});
-  return {first.result(), second.result()};
+  const std::vector<Drive> drives = drive_together(controller, {std::move(one), std::move(other)}, overrides);
+  return {drives[0], drives[1]};
 }
 
 }  // namespace dmrp::test

@@ -33,9 +33,6 @@ struct Walker {
 Walker standing(dmrp_vec2 at);
 Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s = 0.0);  // then stands
 
-class Trip;
-Walker robot_of(const Trip& other);  // `other` must outlive it
-
 // What drives. No corners: a disc.
 struct Body {
   std::uint32_t kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
@@ -149,11 +146,12 @@ class Trip {
 // Drives until the goal or the course's time limit.
 Drive run(const std::string& controller, const Course& course, const ParamOverrides& overrides = {});
 
-// Drives the robots of one world until each has arrived or reached its time limit. Each must have the others among its
-// walkers.
-void drive_together(const std::vector<Trip*>& trips);
+// Drives the robots of one world, each with an instance of its own and the others among its walkers, until each has
+// arrived or reached its time limit.
+std::vector<Drive> drive_together(const std::string& controller, std::vector<Course> courses,
+                                  const ParamOverrides& overrides = {});
 
-// The same for two robots with one controller; adds each robot to the other's walkers.
+// The same for two.
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides = {});
 

@@ -61,7 +61,8 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                           "pedestrian_desired_speed",
                                                           "root_conflicts",
                                                           "root_conflicts_waited",
-                                                          "root_conflicts_detoured"};
+                                                          "root_conflicts_detoured",
+                                                          "after_standstill"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance",    "ibtr_by_speed_fraction",
@@ -140,6 +141,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"first_cause", "1"},
                                                        {"culprit", "1"},
                                                        {"held_behind", "1"},
+                                                       {"after_standstill", "1"},
                                                        {"blocked_time", "s"},
                                                        {"blocked_time_person", "s"},
                                                        {"blocked_time_robot", "s"},
@@ -221,7 +223,7 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
   for (int t = 0; t <= 3; ++t)
     trial.sample(t, {at(0, 0), at(5, 0)}).events({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
   trial.end(3.0, {never, never});
-  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit"};
+  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit", "after_standstill"};
   const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
                                            "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",

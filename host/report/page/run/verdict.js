@@ -88,6 +88,7 @@ export function lines(data) {
       )}${causes_words(data)}.`,
       'failures'
     );
+  if (data.standstills_line) add('note', `${data.standstills_line}.`);
   if (found.length === 0) add('good', all_well(t));
   else if (t.ran > 0 && found.every((line) => line.kind === 'note'))
     add('good', `${numbers.counted(t.ran, 'trial')} without a fault, every one repeatable.`);

@@ -201,8 +201,8 @@ TEST_CASE("a plugin that this host does not know is left out with a note, and th
     stranger.kind = DMRP_KIND_PEDESTRIAN_MODEL;
     stranger.flags = 1u << 20 | 1u << 10;
     expect_note(
-        "its plugin 'test.odd.stranger' is left out: it has the flags 0x100000, which must be understood, which this "
-        "host does not know");
+        "its plugin 'test.odd.stranger' is left out: it has the flags 0x100000 of DMRP_FLAGS_NEEDED, which this host "
+        "does not know");
   }
   SECTION("the type of a parameter") {
     stranger.kind = DMRP_KIND_PEDESTRIAN_MODEL;

@@ -142,6 +142,25 @@ TEST_CASE("success_at counts the robots that succeed within multiples of their l
   CHECK(m.curves.at("success_at") == std::map<double, double>{{1.5, 0.25}, {2.0, 0.75}, {3.0, 0.75}});
 }
 
+TEST_CASE("after a standstill that runs on, it counts which of its robots arrive") {
+  SyntheticTrial trial(3);
+  trial.plan(std::vector<Points>(3, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(3, at(0, 0)));
+  const bool runs_on = GENERATE(true, false);
+  if (runs_on)
+    trial.events(
+        {{DMRP_ROBOT_EVENT_RUNS_ON, 0, 0, 0, DMRP_NOBODY}, {DMRP_ROBOT_EVENT_RUNS_ON, 2, 0, 0, DMRP_NOBODY}});
+  trial.end(40.0, {never, 10.0, 35.0});
+  const Measurement m = measure("dmrp.metric.first_cause", trial);
+  CHECK(std::isnan(m.robot("after_standstill", 1)));
+  if (!runs_on) {
+    CHECK(std::isnan(m.system("after_standstill")));
+    return;
+  }
+  CHECK(m.robot("after_standstill", 0) == 0.0);
+  CHECK(m.robot("after_standstill", 2) == 1.0);
+  CHECK(m.system("after_standstill") == 0.5);
+}
+
 TEST_CASE("a robot that waits for another failed by the other's cause") {
   SyntheticTrial trial(6);
   trial.plan(std::vector<Points>(6, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(6, at(0, 0)));
