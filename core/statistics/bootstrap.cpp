@@ -11,20 +11,6 @@
 #include "core/statistics/descriptive.hpp"
 
 namespace dmrp::core {
-namespace {
-
-// The same as quantile_of_sorted (descriptive.hpp), without sorting all values.
-double quantile(std::vector<double>& values, double p) {
-  const double position = p * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(values.begin(), middle, values.end());
-  const double above = middle + 1 == values.end() ? *middle : *std::min_element(middle + 1, values.end());
-  return *middle + (position - static_cast<double>(below)) * (above - *middle);
-}
-
-}  // namespace
-
 BootstrapDraws::BootstrapDraws(std::size_t clusters, const BootstrapSettings& settings)
     : clusters_(clusters), resamples_(settings.resamples), draws_(clusters * settings.resamples) {
   toolkit::Stream random(settings.seed, "statistics.bootstrap");
@@ -60,15 +46,6 @@ Interval cluster_bootstrap_interval(std::span<const std::vector<double>> cluster
   for (const std::vector<double>& cluster : clusters)
     if (!cluster.empty()) nonempty.push_back(cluster);
   return cluster_bootstrap_interval(nonempty, BootstrapDraws(nonempty.size(), settings));
-}
-
-Interval percentile_interval(std::vector<double> resampled) {
-  const std::size_t drawn = resampled.size();
-  resampled.erase(std::remove_if(resampled.begin(), resampled.end(), [](double value) { return std::isnan(value); }),
-                  resampled.end());
-  if (resampled.empty() || 2 * resampled.size() < drawn) return {undefined, undefined};
-  const double low = quantile(resampled, 0.025);
-  return {low, quantile(resampled, 0.975)};
 }
 
 }  // namespace dmrp::core

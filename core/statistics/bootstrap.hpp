@@ -9,12 +9,10 @@
 #include <span>
 #include <vector>
 
-namespace dmrp::core {
+#include "core/statistics/descriptive.hpp"
+#include "core/statistics/resampling.hpp"
 
-struct Interval {
-  double low;
-  double high;
-};
+namespace dmrp::core {
 
 struct BootstrapSettings {
   std::uint32_t resamples = 2000;
@@ -41,9 +39,5 @@ class BootstrapDraws {
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters, const BootstrapDraws& draws);
 Interval cluster_bootstrap_interval(std::span<const std::vector<double>> clusters,
                                     const BootstrapSettings& settings = {});
-
-// The interval between the 2.5 % and 97.5 % quantiles of a statistic's resampled values. Ignores NaNs (resamples in
-// which the statistic is undefined); undefined if fewer than half of the values remain.
-Interval percentile_interval(std::vector<double> resampled);
 
 }  // namespace dmrp::core

@@ -94,4 +94,18 @@ Interval restricted_mean_interval(std::span<const TimeToEvent> cases, double hor
   return percentile_interval(std::move(means));
 }
 
+Interval restricted_mean_interval(std::span<const TimeToEvent> cases, double horizon, const Resampling& resampling) {
+  if (cases.empty() || resampling.observations() < 2) return {};
+  const std::vector<TimeToEvent> sorted = by_time(cases);
+  std::vector<std::uint32_t> count(sorted.size());
+  std::vector<double> means;
+  for (std::size_t i = 0; i < resampling.resamples(); ++i) {
+    const auto counts = resampling.counts(i);
+    for (std::size_t k = 0; k < count.size(); ++k) count[k] = counts[resampling.observation_of_task(sorted[k].cluster)];
+    const bool any = std::any_of(count.begin(), count.end(), [](std::uint32_t one) { return one > 0; });
+    means.push_back(any ? area(sorted, count, horizon) : undefined);
+  }
+  return percentile_interval(std::move(means));
+}
+
 }  // namespace dmrp::core

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/statistics/bootstrap.hpp"
+#include "core/statistics/resampling.hpp"
 
 namespace dmrp::core {
 
@@ -32,5 +33,8 @@ double restricted_mean(std::span<const TimeToEvent> cases, double horizon);
 // A 95 % interval of the restricted mean by the bootstrap over clusters; needs at least two clusters.
 Interval restricted_mean_interval(std::span<const TimeToEvent> cases, double horizon,
                                   const BootstrapSettings& settings = {});
+
+// The same over a resampling of tasks: `cluster` is the task of a case. Needs two observations.
+Interval restricted_mean_interval(std::span<const TimeToEvent> cases, double horizon, const Resampling& resampling);
 
 }  // namespace dmrp::core

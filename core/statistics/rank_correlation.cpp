@@ -18,7 +18,7 @@ namespace dmrp::core {
 namespace {
 
 constexpr std::size_t most_exact_points = 8;
-constexpr std::uint64_t draws = 5'000;
+constexpr std::uint64_t permutations = 5'000;
 constexpr std::uint32_t resamples = 1'000;
 
 using Ranks = std::vector<std::int64_t>;
@@ -76,11 +76,11 @@ double drawn_p(const std::vector<Ranks>& x, std::vector<Ranks> y, std::uint64_t 
   const std::int64_t observed = std::abs(product(x, y));
   toolkit::Stream random(seed, "statistics.rank_correlation");
   std::uint64_t as_far = 1;
-  for (std::uint64_t draw = 0; draw < draws; ++draw) {
+  for (std::uint64_t draw = 0; draw < permutations; ++draw) {
     for (Ranks& of_block : y) random.shuffle(of_block);
     if (std::abs(product(x, y)) >= observed) ++as_far;
   }
-  return static_cast<double>(as_far) / static_cast<double>(draws + 1);
+  return static_cast<double>(as_far) / static_cast<double>(permutations + 1);
 }
 
 // The index of each value among the distinct values; the ranks of a resample then follow by counting.
@@ -212,6 +212,109 @@ RankCorrelation rank_correlation(std::span<const double> x, std::span<const doub
   result.exact = x.size() <= most_exact_points && members.size() == 1;
   result.p = result.exact ? exact_p(ranks_x[0], ranks_y[0]) : drawn_p(ranks_x, ranks_y, seed);
   result.interval = bootstrap(x, y, cluster, members, seed);
+  return result;
+}
+
+namespace {
+
+// The pairs of one entry.
+struct EntryPairs {
+  std::vector<std::size_t> tasks;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+std::vector<EntryPairs> pairs_of(std::span<const std::vector<double>> x, std::span<const std::vector<double>> y) {
+  std::vector<EntryPairs> entries;
+  for (std::size_t entry = 0; entry < x.size(); ++entry) {
+    EntryPairs pairs;
+    for (std::size_t task = 0; task < x[entry].size(); ++task) {
+      if (std::isnan(x[entry][task]) || std::isnan(y[entry][task])) continue;
+      pairs.tasks.push_back(task);
+      pairs.x.push_back(x[entry][task]);
+      pairs.y.push_back(y[entry][task]);
+    }
+    if (pairs.tasks.size() > 1) entries.push_back(std::move(pairs));
+  }
+  return entries;
+}
+
+std::vector<std::size_t> tasks_of(std::span<const EntryPairs> entries) {
+  std::vector<std::size_t> tasks;
+  for (const EntryPairs& one : entries) tasks.insert(tasks.end(), one.tasks.begin(), one.tasks.end());
+  std::sort(tasks.begin(), tasks.end());
+  tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());
+  return tasks;
+}
+
+// The sum of products when the tasks' y change places: entry by entry in the order of the tasks' places, so that entries
+// without a gap have the same permutation.
+std::int64_t permuted_product(std::span<const EntryPairs> entries, const std::vector<Ranks>& x,
+                              const std::vector<Ranks>& y, const std::vector<std::size_t>& place) {
+  std::int64_t sum = 0;
+  std::vector<std::size_t> order;
+  for (std::size_t entry = 0; entry < entries.size(); ++entry) {
+    const std::vector<std::size_t>& tasks = entries[entry].tasks;
+    order.resize(tasks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return place[tasks[a]] < place[tasks[b]]; });
+    for (std::size_t i = 0; i < order.size(); ++i) sum += x[entry][i] * y[entry][order[i]];
+  }
+  return sum;
+}
+
+}  // namespace
+
+RankCorrelation task_rank_correlation(std::span<const std::vector<double>> x, std::span<const std::vector<double>> y,
+                                      const Resampling& resampling, std::uint64_t seed) {
+  assert(x.size() == y.size());
+  const std::vector<EntryPairs> entries = pairs_of(x, y);
+  const std::vector<std::size_t> tasks = tasks_of(entries);
+  RankCorrelation result{static_cast<std::uint32_t>(tasks.size()), undefined, {}, undefined, true, undefined};
+  if (tasks.size() < fewest_for_correlation) return result;
+  std::vector<Ranks> ranks_x;
+  std::vector<Ranks> ranks_y;
+  std::uint64_t pairs = 0;
+  double tied = 0.0;
+  std::vector<ResampledBlock> blocks;
+  for (const EntryPairs& one : entries) {
+    ranks_x.push_back(centered_ranks(one.x));
+    ranks_y.push_back(centered_ranks(one.y));
+    const std::size_t n = one.x.size();
+    std::vector<std::size_t> members(n);
+    std::iota(members.begin(), members.end(), std::size_t{0});
+    tied += share_of_ties(one.x, one.y, {members}) * static_cast<double>(n * (n - 1) / 2);
+    pairs += n * (n - 1) / 2;
+    blocks.push_back({one.tasks, places(one.x), places(one.y), std::vector<std::uint32_t>(n), Ranks(n), Ranks(n)});
+  }
+  result.ties_share = tied / static_cast<double>(pairs);
+  result.rho = correlation_of(product(ranks_x, ranks_x), product(ranks_x, ranks_y), product(ranks_y, ranks_y));
+  if (std::isnan(result.rho)) return result;
+
+  const std::int64_t observed = std::abs(product(ranks_x, ranks_y));
+  std::vector<std::size_t> place(resampling.tasks());
+  std::iota(place.begin(), place.end(), std::size_t{0});
+  toolkit::Stream random(seed, "statistics.task_rank_correlation");
+  std::uint64_t as_far = 1;
+  for (std::uint64_t draw = 0; draw < permutations; ++draw) {
+    random.shuffle(place);
+    if (std::abs(permuted_product(entries, ranks_x, ranks_y, place)) >= observed) ++as_far;
+  }
+  result.exact = false;
+  result.p = static_cast<double>(as_far) / static_cast<double>(permutations + 1);
+
+  std::vector<double> correlations;
+  for (std::size_t i = 0; i < resampling.resamples(); ++i) {
+    for (ResampledBlock& block : blocks) {
+      for (std::size_t k = 0; k < block.count.size(); ++k)
+        block.count[k] = resampling.counts(i)[resampling.observation_of_task(block.members[k])];
+      rank_by_counts(block.place_x, block.count, block.x);
+      rank_by_counts(block.place_y, block.count, block.y);
+    }
+    correlations.push_back(weighted_correlation(blocks));
+  }
+  result.interval = percentile_interval(std::move(correlations));
   return result;
 }
 

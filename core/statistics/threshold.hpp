@@ -2,10 +2,12 @@
 // threshold.hpp: the level of a graded test at which half of the attempts succeed.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/statistics/bootstrap.hpp"
+#include "core/statistics/resampling.hpp"
 
 namespace dmrp::core {
 
@@ -36,5 +38,18 @@ struct ThresholdEstimate {
 // `levels`: from the hardest to the easiest, at least one, with the same number of repetitions.
 Threshold half_threshold(std::span<const LevelOutcomes> levels);
 ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const BootstrapSettings& settings = {});
+
+// The same over a resampling of tasks, of which repetitions are the tasks.
+ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const Resampling& resampling);
+
+// Around the threshold: the last level that fails (the isotonic fit is below one half) and the first that is passed.
+struct ThresholdBracket {
+  std::optional<double> last_failed;   // none: even the hardest level is passed
+  std::optional<double> first_passed;  // none: not even the easiest level is
+  bool is_steep =
+      false;  // both fit values are 0 and 1: the threshold lies between the two levels, and nothing measured
+              // says where: print the bracket, neither the estimate nor its interval
+};
+ThresholdBracket threshold_bracket(std::span<const LevelOutcomes> levels);
 
 }  // namespace dmrp::core

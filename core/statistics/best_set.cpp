@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "core/statistics/best_set.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <dmrp/toolkit/random.hpp>
+#include <numeric>
+
+#include "core/statistics/betting.hpp"
+#include "core/statistics/descriptive.hpp"
+#include "core/statistics/ranks.hpp"
+
+namespace dmrp::core {
+namespace {
+
+constexpr std::size_t most_exact_observations = 12;
+constexpr std::size_t drawn_signs = 4'095;  // of signs, beside the observed ones
+constexpr double rounding_error = 1e-9;     // of the largest difference, or of a statistic
+constexpr std::size_t fewest_observations = 6;
+
+// Two entries in one criterion: that they are equally good is tested.
+struct Contrast {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  std::size_t criterion = 0;
+  std::vector<double> scores;  // by observation, above zero if b is better; 0: equal or undefined
+  double scale = 0.0;          // the root of the sum of squares
+  double statistic = 0.0;      // the sum over the scale: the same scale under all signs
+  double p = 1.0;
+};
+
+std::vector<double> signed_ranks(const std::vector<double>& differences) {
+  std::vector<double> sizes;
+  for (const double difference : differences) sizes.push_back(std::abs(difference));
+  const double tolerance = sizes.empty() ? 0.0 : rounding_error * *std::max_element(sizes.begin(), sizes.end());
+  const std::vector<std::int64_t> ranks = doubled_midranks(sizes, tolerance);
+  std::vector<double> scores;
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    scores.push_back(sizes[i] <= tolerance ? 0.0 : std::copysign(static_cast<double>(ranks[i]), differences[i]));
+  return scores;
+}
+
+std::vector<double> scores_of(const std::vector<double>& by_observation, const Criterion& criterion) {
+  std::vector<double> defined;
+  for (const double value : by_observation)
+    if (!std::isnan(value)) defined.push_back(criterion.higher_is_better ? value : -value);
+  if (criterion.score == PairedScore::ranks) defined = signed_ranks(defined);
+  std::vector<double> scores(by_observation.size(), 0.0);
+  auto next = defined.begin();
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    if (!std::isnan(by_observation[i])) scores[i] = *next++;
+  return scores;
+}
+
+// Where entries differ nowhere, there is nothing to test.
+std::vector<Contrast> contrasts_of(std::size_t entries, std::span<const Criterion> criteria,
+                                   const Resampling& resampling, std::uint32_t& observations) {
+  std::vector<Contrast> found;
+  for (std::size_t criterion = 0; criterion < criteria.size(); ++criterion)
+    for (std::size_t a = 0; a < entries; ++a)
+      for (std::size_t b = a + 1; b < entries; ++b) {
+        const auto values = resampling.by_observation(criteria[criterion].differences(a, b));
+        observations =
+            std::max(observations, static_cast<std::uint32_t>(std::count_if(values.begin(), values.end(),
+                                                                            [](double x) { return !std::isnan(x); })));
+        Contrast one{a, b, criterion, scores_of(values, criteria[criterion]), 0.0, 0.0, 1.0};
+        one.scale = std::sqrt(std::inner_product(one.scores.begin(), one.scores.end(), one.scores.begin(), 0.0));
+        if (one.scale < rounding_error) continue;
+        one.statistic = std::accumulate(one.scores.begin(), one.scores.end(), 0.0) / one.scale;
+        found.push_back(std::move(one));
+      }
+  return found;
+}
+
+// The signs of observations, in one assignment after another: all (but for the last sign: flipping all changes no size),
+// or drawn ones.
+class Signs {
+ public:
+  explicit Signs(std::size_t observations) : signs_(observations, 1.0), random_(1, "statistics.best_set") {
+    is_exact_ = observations <= most_exact_observations;
+    assignments_ = is_exact_ ? std::size_t{1} << (observations - 1) : drawn_signs + 1;
+  }
+  std::size_t assignments() const { return assignments_; }  // with the observed one, the first
+  const std::vector<double>& assignment(std::size_t i) {
+    std::uint64_t bits = i;
+    for (std::size_t k = 0; k < signs_.size(); ++k) {
+      if (!is_exact_ && k % 64 == 0) bits = i == 0 ? 0 : random_.next_u64();
+      signs_[k] = (bits & 1) != 0 ? -1.0 : 1.0;
+      bits >>= 1;
+    }
+    return signs_;
+  }
+
+ private:
+  std::vector<double> signs_;
+  toolkit::Stream random_;
+  bool is_exact_ = false;
+  std::size_t assignments_ = 0;
+};
+
+// Stepdown: a contrast is compared with the largest statistic of those that are not larger than its own.
+void adjust_by_stepdown(std::vector<Contrast>& contrasts, std::size_t observations) {
+  std::sort(contrasts.begin(), contrasts.end(),
+            [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
+  std::vector<std::size_t> as_large(contrasts.size(), 0);
+  Signs signs(observations);
+  for (std::size_t i = 0; i < signs.assignments(); ++i) {
+    const std::vector<double>& assignment = signs.assignment(i);
+    double largest = 0.0;
+    for (std::size_t k = contrasts.size(); k-- > 0;) {
+      const std::vector<double>& scores = contrasts[k].scores;
+      const double sum = std::inner_product(scores.begin(), scores.end(), assignment.begin(), 0.0);
+      largest = std::max(largest, std::abs(sum) / contrasts[k].scale);
+      if (largest >= std::abs(contrasts[k].statistic) - rounding_error) ++as_large[k];
+    }
+  }
+  double at_least = 0.0;
+  for (std::size_t k = 0; k < contrasts.size(); ++k) {
+    at_least = std::max(at_least, static_cast<double>(as_large[k]) / static_cast<double>(signs.assignments()));
+    contrasts[k].p = at_least;
+  }
+}
+
+bool not_inferior_before(std::size_t better, std::size_t worse, std::size_t criterion,
+                         std::span<const Criterion> criteria, const Resampling& resampling) {
+  for (std::size_t i = 0; i < criterion; ++i)
+    if (!non_inferior(criteria[i].differences(worse, better), criteria[i], resampling)) return false;
+  return true;
+}
+
+}  // namespace
+
+PairedDifferences differences_of(const std::vector<std::vector<double>>& values) {
+  return [&values](std::size_t a, std::size_t b) {
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < values[a].size(); ++i) differences.push_back(values[b][i] - values[a][i]);
+    return differences;
+  };
+}
+
+bool non_inferior(std::span<const double> differences, const Criterion& criterion, const Resampling& resampling) {
+  std::vector<double> values;
+  for (const double value : resampling.by_observation(differences))
+    if (!std::isnan(value)) values.push_back(criterion.higher_is_better ? value : -value);
+  if (values.empty()) return false;
+  if (std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) < rounding_error; }))
+    return true;
+  if (criterion.bounds) {
+    const double span = criterion.bounds->high - criterion.bounds->low;
+    for (double& value : values) value = std::clamp(0.5 + 0.5 * value / span, 0.0, 1.0);
+    return span * (2.0 * betting_lower_bound(values) - 1.0) > -criterion.margin;
+  }
+  if (values.size() < fewest_for_bootstrap_t) return false;
+  const auto n = static_cast<double>(values.size());
+  const double quantile = boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - significance);
+  return mean(values) - quantile * sample_sd(values) / std::sqrt(n) > -criterion.margin;
+}
+
+BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const Resampling& resampling) {
+  BestSet result;
+  result.excluded.resize(entries);
+  std::vector<Contrast> contrasts = contrasts_of(entries, criteria, resampling, result.observations);
+  if (result.observations < fewest_observations) return result;
+  adjust_by_stepdown(contrasts, resampling.observations());
+  for (std::size_t criterion = 0; criterion < criteria.size(); ++criterion) {
+    auto after = result.excluded;  // those excluded by an earlier criterion exclude nobody
+    for (const Contrast& one : contrasts) {
+      if (one.criterion != criterion || !(one.p < significance)) continue;
+      const auto [better, worse] = one.statistic > 0.0 ? std::pair(one.b, one.a) : std::pair(one.a, one.b);
+      if (result.excluded[better] || after[worse]) continue;
+      if (not_inferior_before(better, worse, criterion, criteria, resampling))
+        after[worse] = Exclusion{better, criterion, one.p};
+    }
+    // ranks may order three entries in a circle; then this criterion says nothing
+    if (std::any_of(after.begin(), after.end(), [](const auto& one) { return !one; })) result.excluded = after;
+  }
+  return result;
+}
+
+std::vector<bool> pareto_set(std::span<const std::vector<double>> means, const std::vector<bool>& higher_is_better) {
+  const std::size_t entries = means.empty() ? 0 : means.front().size();
+  const auto gain = [&](std::size_t criterion, std::size_t entry) {
+    const double value = means[criterion][entry];
+    if (std::isnan(value)) return -std::numeric_limits<double>::infinity();
+    return higher_is_better[criterion] ? value : -value;
+  };
+  const auto dominates = [&](std::size_t one, std::size_t other) {
+    bool better = false;
+    for (std::size_t criterion = 0; criterion < means.size(); ++criterion) {
+      if (gain(criterion, one) < gain(criterion, other)) return false;
+      better = better || gain(criterion, one) > gain(criterion, other);
+    }
+    return better;
+  };
+  std::vector<bool> inside(entries, true);
+  for (std::size_t entry = 0; entry < entries; ++entry)
+    for (std::size_t other = 0; other < entries; ++other)
+      if (other != entry && dominates(other, entry)) inside[entry] = false;
+  return inside;
+}
+
+}  // namespace dmrp::core
