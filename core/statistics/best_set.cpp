@@ -2,7 +2,7 @@
 #include "core/statistics/best_set.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
@@ -28,6 +28,7 @@ struct Contrast {
   std::vector<double> scores;  // by observation, above zero if b is better; 0: equal or undefined
   double scale = 0.0;          // the root of the sum of squares
   double statistic = 0.0;      // the sum over the scale: the same scale under all signs
+  double gain = 0.0;           // the mean difference, above zero if b is better
   double p = 1.0;
 };
 
@@ -42,16 +43,27 @@ std::vector<double> signed_ranks(const std::vector<double>& differences) {
   return scores;
 }
 
-std::vector<double> scores_of(const std::vector<double>& by_observation, const Criterion& criterion) {
+bool is_defined(double value) {
+  return !std::isnan(value);
+}
+
+// `differences`: by observation.
+Contrast contrast_of(std::vector<double> differences, const Criterion& criterion) {
   std::vector<double> defined;
-  for (const double value : by_observation)
-    if (!std::isnan(value)) defined.push_back(criterion.higher_is_better ? value : -value);
+  for (double& difference : differences) {
+    if (!criterion.higher_is_better) difference = -difference;
+    if (is_defined(difference)) defined.push_back(difference);
+  }
+  Contrast one;
+  one.gain = mean(defined);
   if (criterion.score == PairedScore::ranks) defined = signed_ranks(defined);
-  std::vector<double> scores(by_observation.size(), 0.0);
+  one.scale = std::sqrt(std::inner_product(defined.begin(), defined.end(), defined.begin(), 0.0));
+  one.statistic = std::accumulate(defined.begin(), defined.end(), 0.0) / one.scale;
+  one.scores.assign(differences.size(), 0.0);
   auto next = defined.begin();
-  for (std::size_t i = 0; i < scores.size(); ++i)
-    if (!std::isnan(by_observation[i])) scores[i] = *next++;
-  return scores;
+  for (std::size_t i = 0; i < differences.size(); ++i)
+    if (is_defined(differences[i])) one.scores[i] = *next++;
+  return one;
 }
 
 // Where entries differ nowhere, there is nothing to test.
@@ -61,59 +73,72 @@ std::vector<Contrast> contrasts_of(std::size_t entries, std::span<const Criterio
   for (std::size_t criterion = 0; criterion < criteria.size(); ++criterion)
     for (std::size_t a = 0; a < entries; ++a)
       for (std::size_t b = a + 1; b < entries; ++b) {
-        const auto values = resampling.by_observation(criteria[criterion].differences(a, b));
-        observations =
-            std::max(observations, static_cast<std::uint32_t>(std::count_if(values.begin(), values.end(),
-                                                                            [](double x) { return !std::isnan(x); })));
-        Contrast one{a, b, criterion, scores_of(values, criteria[criterion]), 0.0, 0.0, 1.0};
-        one.scale = std::sqrt(std::inner_product(one.scores.begin(), one.scores.end(), one.scores.begin(), 0.0));
+        auto differences = resampling.by_observation(criteria[criterion].differences(a, b));
+        const auto shared = std::count_if(differences.begin(), differences.end(), is_defined);
+        observations = std::max(observations, static_cast<std::uint32_t>(shared));
+        Contrast one = contrast_of(std::move(differences), criteria[criterion]);
         if (one.scale < rounding_error) continue;
-        one.statistic = std::accumulate(one.scores.begin(), one.scores.end(), 0.0) / one.scale;
+        one.a = a;
+        one.b = b;
+        one.criterion = criterion;
         found.push_back(std::move(one));
       }
   return found;
 }
 
-// The signs of observations, in one assignment after another: all (but for the last sign: flipping all changes no size),
-// or drawn ones.
+// The signs of observations: all assignments of them but for the last one's (flipping all changes no size), or drawn
+// ones. In batches: by observation, then by assignment. The first assignment is the observed one.
 class Signs {
  public:
-  explicit Signs(std::size_t observations) : signs_(observations, 1.0), random_(1, "statistics.best_set") {
-    is_exact_ = observations <= most_exact_observations;
-    assignments_ = is_exact_ ? std::size_t{1} << (observations - 1) : drawn_signs + 1;
-  }
-  std::size_t assignments() const { return assignments_; }  // with the observed one, the first
-  const std::vector<double>& assignment(std::size_t i) {
-    std::uint64_t bits = i;
-    for (std::size_t k = 0; k < signs_.size(); ++k) {
-      if (!is_exact_ && k % 64 == 0) bits = i == 0 ? 0 : random_.next_u64();
-      signs_[k] = (bits & 1) != 0 ? -1.0 : 1.0;
-      bits >>= 1;
+  static constexpr std::size_t batch = 64;
+  using Batch = std::vector<std::array<double, batch>>;
+
+  explicit Signs(std::size_t observations)
+      : is_exact_(observations <= most_exact_observations),
+        assignments_(is_exact_ ? std::size_t{1} << (observations - 1) : drawn_signs + 1),
+        signs_(observations),
+        random_(1, "statistics.best_set") {}
+
+  std::size_t assignments() const { return assignments_; }
+
+  const Batch& from(std::size_t first) {
+    for (std::size_t i = 0; i < signs_.size(); ++i) {
+      const std::uint64_t drawn = is_exact_ ? 0 : random_.next_u64();
+      for (std::size_t k = 0; k < batch; ++k) {
+        const bool is_flipped = is_exact_ ? ((first + k) >> i & 1) != 0 : first + k > 0 && (drawn >> k & 1) != 0;
+        signs_[i][k] = is_flipped ? -1.0 : 1.0;
+      }
     }
     return signs_;
   }
 
  private:
-  std::vector<double> signs_;
+  bool is_exact_;
+  std::size_t assignments_;
+  Batch signs_;
   toolkit::Stream random_;
-  bool is_exact_ = false;
-  std::size_t assignments_ = 0;
 };
 
 // Stepdown: a contrast is compared with the largest statistic of those that are not larger than its own.
 void adjust_by_stepdown(std::vector<Contrast>& contrasts, std::size_t observations) {
-  std::sort(contrasts.begin(), contrasts.end(),
-            [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
+  std::stable_sort(contrasts.begin(), contrasts.end(),
+                   [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
   std::vector<std::size_t> as_large(contrasts.size(), 0);
   Signs signs(observations);
-  for (std::size_t i = 0; i < signs.assignments(); ++i) {
-    const std::vector<double>& assignment = signs.assignment(i);
-    double largest = 0.0;
+  for (std::size_t first = 0; first < signs.assignments(); first += Signs::batch) {
+    const Signs::Batch& batch = signs.from(first);
+    const std::size_t used = std::min(Signs::batch, signs.assignments() - first);
+    std::array<double, Signs::batch> largest{};
     for (std::size_t k = contrasts.size(); k-- > 0;) {
-      const std::vector<double>& scores = contrasts[k].scores;
-      const double sum = std::inner_product(scores.begin(), scores.end(), assignment.begin(), 0.0);
-      largest = std::max(largest, std::abs(sum) / contrasts[k].scale);
-      if (largest >= std::abs(contrasts[k].statistic) - rounding_error) ++as_large[k];
+      const Contrast& one = contrasts[k];
+      std::array<double, Signs::batch> sums{};
+      for (std::size_t i = 0; i < observations; ++i)
+        for (std::size_t assignment = 0; assignment < Signs::batch; ++assignment)
+          sums[assignment] += one.scores[i] * batch[i][assignment];
+      for (std::size_t assignment = 0; assignment < used; ++assignment) {
+        largest[assignment] = std::max(largest[assignment], std::abs(sums[assignment]) / one.scale);
+        if (largest[assignment] >= std::abs(one.statistic) - rounding_error) ++as_large[k];
+      }
     }
   }
   double at_least = 0.0;
@@ -170,6 +195,8 @@ BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const
       if (one.criterion != criterion || !(one.p < significance)) continue;
       const auto [better, worse] = one.statistic > 0.0 ? std::pair(one.b, one.a) : std::pair(one.a, one.b);
       if (result.excluded[better] || after[worse]) continue;
+      const double margin = criteria[criterion].margin;
+      if (margin > 0.0 && (one.statistic > 0.0 ? one.gain : -one.gain) <= margin + rounding_error) continue;
       if (not_inferior_before(better, worse, criterion, criteria, resampling))
         after[worse] = Exclusion{better, criterion, one.p};
     }
