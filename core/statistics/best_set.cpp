@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
+#include <bit>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <numeric>
@@ -16,7 +16,7 @@ namespace dmrp::core {
 namespace {
 
 constexpr std::size_t most_exact_observations = 12;
-constexpr std::size_t drawn_signs = 4'095;  // of signs, beside the observed ones
+constexpr std::size_t drawn_flips = 4'095;  // beside the observed signs
 constexpr double rounding_error = 1e-9;     // of the largest difference, or of a statistic
 constexpr std::size_t fewest_observations = 6;
 
@@ -86,66 +86,63 @@ std::vector<Contrast> contrasts_of(std::size_t entries, std::span<const Criterio
   return found;
 }
 
-// The signs of observations: all assignments of them but for the last one's (flipping all changes no size), or drawn
-// ones. In batches: by observation, then by assignment. The first assignment is the observed one.
-class Signs {
- public:
-  static constexpr std::size_t batch = 64;
-  using Batch = std::vector<std::array<double, batch>>;
-
-  explicit Signs(std::size_t observations)
-      : is_exact_(observations <= most_exact_observations),
-        assignments_(is_exact_ ? std::size_t{1} << (observations - 1) : drawn_signs + 1),
-        signs_(observations),
-        random_(1, "statistics.best_set") {}
-
-  std::size_t assignments() const { return assignments_; }
-
-  const Batch& from(std::size_t first) {
-    for (std::size_t i = 0; i < signs_.size(); ++i) {
-      const std::uint64_t drawn = is_exact_ ? 0 : random_.next_u64();
-      for (std::size_t k = 0; k < batch; ++k) {
-        const bool is_flipped = is_exact_ ? ((first + k) >> i & 1) != 0 : first + k > 0 && (drawn >> k & 1) != 0;
-        signs_[i][k] = is_flipped ? -1.0 : 1.0;
-      }
-    }
-    return signs_;
-  }
-
- private:
-  bool is_exact_;
-  std::size_t assignments_;
-  Batch signs_;
-  toolkit::Stream random_;
+// Which observations change their sign, in one assignment after another, the first without a change: all assignments but
+// for the last observation's (flipping all changes no size), or drawn ones. A byte for eight observations.
+struct Flips {
+  std::size_t assignments = 0;
+  std::size_t bytes = 0;                // of an assignment
+  std::vector<std::uint8_t> flipped{};  // [assignment][byte]
 };
+
+Flips flips_of(std::size_t observations) {
+  const bool is_exact = observations <= most_exact_observations;
+  Flips flips{is_exact ? std::size_t{1} << (observations - 1) : drawn_flips + 1, (observations + 7) / 8};
+  flips.flipped.resize(flips.assignments * flips.bytes);
+  toolkit::Stream random(1, "statistics.best_set");
+  for (std::size_t i = flips.bytes; i < flips.flipped.size(); ++i) {
+    const std::uint64_t bits = is_exact ? i / flips.bytes >> 8 * (i % flips.bytes) : random.next_u64();
+    flips.flipped[i] = static_cast<std::uint8_t>(bits);
+  }
+  return flips;
+}
+
+// The sums of eight scores (fewer at the end) by which of them change their sign.
+using SumsOfEight = std::array<double, 256>;
+
+std::vector<SumsOfEight> sums_by_flips(std::span<const double> scores) {
+  std::vector<SumsOfEight> sums((scores.size() + 7) / 8);
+  for (std::size_t byte = 0; byte < sums.size(); ++byte) {
+    const auto own = scores.subspan(8 * byte, std::min<std::size_t>(8, scores.size() - 8 * byte));
+    sums[byte][0] = std::accumulate(own.begin(), own.end(), 0.0);
+    for (std::size_t flipped = 1; flipped < 256; ++flipped) {
+      const auto lowest = static_cast<std::size_t>(std::countr_zero(flipped));
+      sums[byte][flipped] = sums[byte][flipped & (flipped - 1)] - (lowest < own.size() ? 2.0 * own[lowest] : 0.0);
+    }
+  }
+  return sums;
+}
 
 // Stepdown: a contrast is compared with the largest statistic of those that are not larger than its own.
 void adjust_by_stepdown(std::vector<Contrast>& contrasts, std::size_t observations) {
   std::stable_sort(contrasts.begin(), contrasts.end(),
                    [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
-  std::vector<std::size_t> as_large(contrasts.size(), 0);
-  Signs signs(observations);
-  for (std::size_t first = 0; first < signs.assignments(); first += Signs::batch) {
-    const Signs::Batch& batch = signs.from(first);
-    const std::size_t used = std::min(Signs::batch, signs.assignments() - first);
-    std::array<double, Signs::batch> largest{};
-    for (std::size_t k = contrasts.size(); k-- > 0;) {
-      const Contrast& one = contrasts[k];
-      std::array<double, Signs::batch> sums{};
-      for (std::size_t i = 0; i < observations; ++i)
-        for (std::size_t assignment = 0; assignment < Signs::batch; ++assignment)
-          sums[assignment] += one.scores[i] * batch[i][assignment];
-      for (std::size_t assignment = 0; assignment < used; ++assignment) {
-        largest[assignment] = std::max(largest[assignment], std::abs(sums[assignment]) / one.scale);
-        if (largest[assignment] >= std::abs(one.statistic) - rounding_error) ++as_large[k];
-      }
+  const Flips flips = flips_of(observations);
+  std::vector<double> largest(flips.assignments, 0.0);
+  for (std::size_t k = contrasts.size(); k-- > 0;) {
+    Contrast& one = contrasts[k];
+    const std::vector<SumsOfEight> sums = sums_by_flips(one.scores);
+    std::size_t as_large = 0;
+    const std::uint8_t* flipped = flips.flipped.data();
+    for (double& statistic : largest) {
+      double sum = 0.0;
+      for (const SumsOfEight& of_eight : sums) sum += of_eight[*flipped++];
+      statistic = std::max(statistic, std::abs(sum) / one.scale);
+      if (statistic >= std::abs(one.statistic) - rounding_error) ++as_large;
     }
+    one.p = static_cast<double>(as_large) / static_cast<double>(flips.assignments);
   }
   double at_least = 0.0;
-  for (std::size_t k = 0; k < contrasts.size(); ++k) {
-    at_least = std::max(at_least, static_cast<double>(as_large[k]) / static_cast<double>(signs.assignments()));
-    contrasts[k].p = at_least;
-  }
+  for (Contrast& one : contrasts) one.p = at_least = std::max(at_least, one.p);
 }
 
 bool not_inferior_before(std::size_t better, std::size_t worse, std::size_t criterion,
@@ -178,9 +175,8 @@ bool non_inferior(std::span<const double> differences, const Criterion& criterio
     return span * (2.0 * betting_lower_bound(values) - 1.0) > -criterion.margin;
   }
   if (values.size() < fewest_for_bootstrap_t) return false;
-  const auto n = static_cast<double>(values.size());
-  const double quantile = boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - significance);
-  return mean(values) - quantile * sample_sd(values) / std::sqrt(n) > -criterion.margin;
+  const double error = sample_sd(values) / std::sqrt(static_cast<double>(values.size()));
+  return mean(values) - student_quantile(values.size(), significance) * error > -criterion.margin;
 }
 
 BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const Resampling& resampling) {
