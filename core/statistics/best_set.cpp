@@ -97,11 +97,15 @@ struct Flips {
 Flips flips_of(std::size_t observations) {
   const bool is_exact = observations <= most_exact_observations;
   Flips flips{is_exact ? std::size_t{1} << (observations - 1) : drawn_flips + 1, (observations + 7) / 8};
-  flips.flipped.resize(flips.assignments * flips.bytes);
+  flips.flipped.reserve(flips.assignments * flips.bytes);
+  flips.flipped.assign(flips.bytes, 0);
   toolkit::Stream random(1, "statistics.best_set");
-  for (std::size_t i = flips.bytes; i < flips.flipped.size(); ++i) {
-    const std::uint64_t bits = is_exact ? i / flips.bytes >> 8 * (i % flips.bytes) : random.next_u64();
-    flips.flipped[i] = static_cast<std::uint8_t>(bits);
+  for (std::size_t assignment = 1; assignment < flips.assignments; ++assignment) {
+    std::uint64_t bits = assignment;
+    for (std::size_t byte = 0; byte < flips.bytes; ++byte, bits >>= 8) {
+      if (!is_exact && byte % 8 == 0) bits = random.next_u64();
+      flips.flipped.push_back(static_cast<std::uint8_t>(bits));
+    }
   }
   return flips;
 }

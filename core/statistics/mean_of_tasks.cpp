@@ -12,6 +12,10 @@
 namespace dmrp::core {
 namespace {
 
+// Of a resample, as a share of the observed one: few values that are nearly all equal have resamples in which nothing
+// differs, and a division by nearly nothing would make the interval as wide as one likes.
+constexpr double least_error = 0.2;
+
 // By stratum, of observations with multiplicities.
 struct Moments {
   double count = 0.0;
@@ -65,7 +69,7 @@ Interval bootstrap_t_interval(std::span<const double> values, double center, std
     const auto counts = resampling.counts(i);
     const MeanAndError drawn = resampled(
         values, center, [&](std::size_t k) { return static_cast<double>(counts[k]); }, resampling, strata);
-    studentised.push_back(drawn.error > 0.0 ? (drawn.mean - observed.mean) / drawn.error : undefined);
+    studentised.push_back((drawn.mean - observed.mean) / std::fmax(drawn.error, least_error * observed.error));
   }
   const Interval quantiles = percentile_interval(std::move(studentised));
   const double student = student_quantile(n, significance / 2.0);
