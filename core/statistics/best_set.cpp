@@ -2,8 +2,8 @@
 #include "core/statistics/best_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <numeric>
@@ -16,7 +16,7 @@ namespace dmrp::core {
 namespace {
 
 constexpr std::size_t most_exact_observations = 12;
-constexpr std::size_t drawn_signs = 4'095;  // of signs, beside the observed ones
+constexpr std::size_t drawn_flips = 4'095;  // beside the observed signs
 constexpr double rounding_error = 1e-9;     // of the largest difference, or of a statistic
 constexpr std::size_t fewest_observations = 6;
 
@@ -28,6 +28,7 @@ struct Contrast {
   std::vector<double> scores;  // by observation, above zero if b is better; 0: equal or undefined
   double scale = 0.0;          // the root of the sum of squares
   double statistic = 0.0;      // the sum over the scale: the same scale under all signs
+  double gain = 0.0;           // the mean difference, above zero if b is better
   double p = 1.0;
 };
 
@@ -42,16 +43,27 @@ std::vector<double> signed_ranks(const std::vector<double>& differences) {
   return scores;
 }
 
-std::vector<double> scores_of(const std::vector<double>& by_observation, const Criterion& criterion) {
+bool is_defined(double value) {
+  return !std::isnan(value);
+}
+
+// `differences`: by observation.
+Contrast contrast_of(std::vector<double> differences, const Criterion& criterion) {
   std::vector<double> defined;
-  for (const double value : by_observation)
-    if (!std::isnan(value)) defined.push_back(criterion.higher_is_better ? value : -value);
+  for (double& difference : differences) {
+    if (!criterion.higher_is_better) difference = -difference;
+    if (is_defined(difference)) defined.push_back(difference);
+  }
+  Contrast one;
+  one.gain = mean(defined);
   if (criterion.score == PairedScore::ranks) defined = signed_ranks(defined);
-  std::vector<double> scores(by_observation.size(), 0.0);
+  one.scale = std::sqrt(std::inner_product(defined.begin(), defined.end(), defined.begin(), 0.0));
+  one.statistic = std::accumulate(defined.begin(), defined.end(), 0.0) / one.scale;
+  one.scores.assign(differences.size(), 0.0);
   auto next = defined.begin();
-  for (std::size_t i = 0; i < scores.size(); ++i)
-    if (!std::isnan(by_observation[i])) scores[i] = *next++;
-  return scores;
+  for (std::size_t i = 0; i < differences.size(); ++i)
+    if (is_defined(differences[i])) one.scores[i] = *next++;
+  return one;
 }
 
 // Where entries differ nowhere, there is nothing to test.
@@ -61,66 +73,76 @@ std::vector<Contrast> contrasts_of(std::size_t entries, std::span<const Criterio
   for (std::size_t criterion = 0; criterion < criteria.size(); ++criterion)
     for (std::size_t a = 0; a < entries; ++a)
       for (std::size_t b = a + 1; b < entries; ++b) {
-        const auto values = resampling.by_observation(criteria[criterion].differences(a, b));
-        observations =
-            std::max(observations, static_cast<std::uint32_t>(std::count_if(values.begin(), values.end(),
-                                                                            [](double x) { return !std::isnan(x); })));
-        Contrast one{a, b, criterion, scores_of(values, criteria[criterion]), 0.0, 0.0, 1.0};
-        one.scale = std::sqrt(std::inner_product(one.scores.begin(), one.scores.end(), one.scores.begin(), 0.0));
+        auto differences = resampling.by_observation(criteria[criterion].differences(a, b));
+        const auto shared = std::count_if(differences.begin(), differences.end(), is_defined);
+        observations = std::max(observations, static_cast<std::uint32_t>(shared));
+        Contrast one = contrast_of(std::move(differences), criteria[criterion]);
         if (one.scale < rounding_error) continue;
-        one.statistic = std::accumulate(one.scores.begin(), one.scores.end(), 0.0) / one.scale;
+        one.a = a;
+        one.b = b;
+        one.criterion = criterion;
         found.push_back(std::move(one));
       }
   return found;
 }
 
-// The signs of observations, in one assignment after another: all (but for the last sign: flipping all changes no size),
-// or drawn ones.
-class Signs {
- public:
-  explicit Signs(std::size_t observations) : signs_(observations, 1.0), random_(1, "statistics.best_set") {
-    is_exact_ = observations <= most_exact_observations;
-    assignments_ = is_exact_ ? std::size_t{1} << (observations - 1) : drawn_signs + 1;
-  }
-  std::size_t assignments() const { return assignments_; }  // with the observed one, the first
-  const std::vector<double>& assignment(std::size_t i) {
-    std::uint64_t bits = i;
-    for (std::size_t k = 0; k < signs_.size(); ++k) {
-      if (!is_exact_ && k % 64 == 0) bits = i == 0 ? 0 : random_.next_u64();
-      signs_[k] = (bits & 1) != 0 ? -1.0 : 1.0;
-      bits >>= 1;
-    }
-    return signs_;
-  }
-
- private:
-  std::vector<double> signs_;
-  toolkit::Stream random_;
-  bool is_exact_ = false;
-  std::size_t assignments_ = 0;
+// Which observations change their sign, in one assignment after another, the first without a change: all assignments but
+// for the last observation's (flipping all changes no size), or drawn ones. A byte for eight observations.
+struct Flips {
+  std::size_t assignments = 0;
+  std::size_t bytes = 0;                // of an assignment
+  std::vector<std::uint8_t> flipped{};  // [assignment][byte]
 };
+
+Flips flips_of(std::size_t observations) {
+  const bool is_exact = observations <= most_exact_observations;
+  Flips flips{is_exact ? std::size_t{1} << (observations - 1) : drawn_flips + 1, (observations + 7) / 8};
+  flips.flipped.resize(flips.assignments * flips.bytes);
+  toolkit::Stream random(1, "statistics.best_set");
+  for (std::size_t i = flips.bytes; i < flips.flipped.size(); ++i) {
+    const std::uint64_t bits = is_exact ? i / flips.bytes >> 8 * (i % flips.bytes) : random.next_u64();
+    flips.flipped[i] = static_cast<std::uint8_t>(bits);
+  }
+  return flips;
+}
+
+// The sums of eight scores (fewer at the end) by which of them change their sign.
+using SumsOfEight = std::array<double, 256>;
+
+std::vector<SumsOfEight> sums_by_flips(std::span<const double> scores) {
+  std::vector<SumsOfEight> sums((scores.size() + 7) / 8);
+  for (std::size_t byte = 0; byte < sums.size(); ++byte) {
+    const auto own = scores.subspan(8 * byte, std::min<std::size_t>(8, scores.size() - 8 * byte));
+    sums[byte][0] = std::accumulate(own.begin(), own.end(), 0.0);
+    for (std::size_t flipped = 1; flipped < 256; ++flipped) {
+      const auto lowest = static_cast<std::size_t>(std::countr_zero(flipped));
+      sums[byte][flipped] = sums[byte][flipped & (flipped - 1)] - (lowest < own.size() ? 2.0 * own[lowest] : 0.0);
+    }
+  }
+  return sums;
+}
 
 // Stepdown: a contrast is compared with the largest statistic of those that are not larger than its own.
 void adjust_by_stepdown(std::vector<Contrast>& contrasts, std::size_t observations) {
-  std::sort(contrasts.begin(), contrasts.end(),
-            [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
-  std::vector<std::size_t> as_large(contrasts.size(), 0);
-  Signs signs(observations);
-  for (std::size_t i = 0; i < signs.assignments(); ++i) {
-    const std::vector<double>& assignment = signs.assignment(i);
-    double largest = 0.0;
-    for (std::size_t k = contrasts.size(); k-- > 0;) {
-      const std::vector<double>& scores = contrasts[k].scores;
-      const double sum = std::inner_product(scores.begin(), scores.end(), assignment.begin(), 0.0);
-      largest = std::max(largest, std::abs(sum) / contrasts[k].scale);
-      if (largest >= std::abs(contrasts[k].statistic) - rounding_error) ++as_large[k];
+  std::stable_sort(contrasts.begin(), contrasts.end(),
+                   [](const Contrast& x, const Contrast& y) { return std::abs(x.statistic) > std::abs(y.statistic); });
+  const Flips flips = flips_of(observations);
+  std::vector<double> largest(flips.assignments, 0.0);
+  for (std::size_t k = contrasts.size(); k-- > 0;) {
+    Contrast& one = contrasts[k];
+    const std::vector<SumsOfEight> sums = sums_by_flips(one.scores);
+    std::size_t as_large = 0;
+    const std::uint8_t* flipped = flips.flipped.data();
+    for (double& statistic : largest) {
+      double sum = 0.0;
+      for (const SumsOfEight& of_eight : sums) sum += of_eight[*flipped++];
+      statistic = std::max(statistic, std::abs(sum) / one.scale);
+      if (statistic >= std::abs(one.statistic) - rounding_error) ++as_large;
     }
+    one.p = static_cast<double>(as_large) / static_cast<double>(flips.assignments);
   }
   double at_least = 0.0;
-  for (std::size_t k = 0; k < contrasts.size(); ++k) {
-    at_least = std::max(at_least, static_cast<double>(as_large[k]) / static_cast<double>(signs.assignments()));
-    contrasts[k].p = at_least;
-  }
+  for (Contrast& one : contrasts) one.p = at_least = std::max(at_least, one.p);
 }
 
 bool not_inferior_before(std::size_t better, std::size_t worse, std::size_t criterion,
@@ -153,9 +175,8 @@ bool non_inferior(std::span<const double> differences, const Criterion& criterio
     return span * (2.0 * betting_lower_bound(values) - 1.0) > -criterion.margin;
   }
   if (values.size() < fewest_for_bootstrap_t) return false;
-  const auto n = static_cast<double>(values.size());
-  const double quantile = boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - significance);
-  return mean(values) - quantile * sample_sd(values) / std::sqrt(n) > -criterion.margin;
+  const double error = sample_sd(values) / std::sqrt(static_cast<double>(values.size()));
+  return mean(values) - student_quantile(values.size(), significance) * error > -criterion.margin;
 }
 
 BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const Resampling& resampling) {
@@ -170,6 +191,8 @@ BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const
       if (one.criterion != criterion || !(one.p < significance)) continue;
       const auto [better, worse] = one.statistic > 0.0 ? std::pair(one.b, one.a) : std::pair(one.a, one.b);
       if (result.excluded[better] || after[worse]) continue;
+      const double margin = criteria[criterion].margin;
+      if (margin > 0.0 && (one.statistic > 0.0 ? one.gain : -one.gain) <= margin + rounding_error) continue;
       if (not_inferior_before(better, worse, criterion, criteria, resampling))
         after[worse] = Exclusion{better, criterion, one.p};
     }

@@ -28,7 +28,7 @@ struct Criterion {
   PairedDifferences differences;
   bool higher_is_better = true;
   PairedScore score = PairedScore::mean;
-  double margin = 0.0;  // of non-inferiority: a mean that is worse by less counts as not inferior; not used in the last
+  double margin = 0.0;  // a mean difference up to this much decides nothing: it excludes nobody, and is not inferior
   Bounds bounds;        // of the values, for non-inferiority
 };
 
@@ -44,18 +44,20 @@ struct BestSet {
   std::uint32_t observations = 0;                  // the most that any pair of entries shares
 };
 
-// An entry is excluded if another one is shown to be better in a criterion, and not to be inferior in each criterion
-// before it (non_inferior): a fixed sequence. With 95 % confidence no exclusion is wrong, so that the best is in the
-// set. Selection is inside: all ordered pairs of entries are compared in all criteria, by the largest of their
-// statistics when the signs of whole observations are flipped, the same for all pairs and criteria, with stepdown
-// (Mogstad, Romano, Shaikh, Wilhelm: Inference for ranks, Review of Economic Studies 91, 2024; Romano, Wolf: Exact and
-// approximate stepdown methods, JASA 100, 2005). Exact where differences of entries that are equally good are symmetric
-// (entries could change places within a task). n observations give no p below 2^(1 - n); below six nobody is excluded.
+// An entry is excluded if another one is shown to be better in a criterion (by a mean of more than its margin), and not to
+// be inferior in each criterion before it: a fixed sequence. Entries that a criterion excludes exclude nobody in later
+// ones; never are all excluded. With 95 % confidence no exclusion is wrong, so that the best is in the set. Selection is
+// inside: all pairs of entries are compared in all criteria, by the largest of their statistics when the signs of whole
+// observations are flipped, the same for all pairs and criteria, with stepdown (Mogstad, Romano, Shaikh, Wilhelm:
+// Inference for ranks, Review of Economic Studies 91, 2024; Romano, Wolf: Exact and approximate stepdown methods, JASA 100,
+// 2005). Exact where the differences of entries that are equally good are symmetric (entries could change places within a
+// task): all signs up to 12 observations, else 4,095 drawn ones and the observed. n observations give no p below 2^(1 - n);
+// below six nobody is excluded.
 BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const Resampling& resampling);
 
 // Whether differences (of the entry minus the other, by task) show that the entry's mean is not worse by more than the
-// margin. Bounded values: the one-sided 95 % betting bound, or equal in every observation; unbounded ones: the lower
-// one-sided bound of Student's t.
+// margin: by the one-sided 95 % betting bound of bounded values, by Student's of unbounded ones (from ten observations).
+// Equal in every observation: yes; n of them allow a difference by the rule of three, which may be larger than the margin.
 bool non_inferior(std::span<const double> differences, const Criterion& criterion, const Resampling& resampling);
 
 // The entries for which none is at least as good in all means and better in one. means: [criterion][entry]; NaN is the

@@ -2,7 +2,6 @@
 #include "core/statistics/betting.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <vector>
@@ -10,20 +9,24 @@
 namespace dmrp::core {
 namespace {
 
-// The share of the capital that stays in a bet on each value; the capital is spread over these bets from the start. All
-// of it: what few equal values need. Less: what many that vary need.
-constexpr std::array<double, 5> stakes = {1.0, 0.7, 0.4, 0.2, 0.1};
+// The capital is spread over this many bets, each of which stakes another share of what it has on every value.
+constexpr std::size_t bets = 4;
 
-// What a capital of 1 becomes by bets that the mean is above `center`. Falls with `center`. Where expectations differ,
-// the product's own is at most one, as long as their mean is at most `center` (arithmetic and geometric means).
-double capital_against_low(std::span<const double> values, double center) {
+// What a capital of 1 becomes by bets that the mean is above `center`. The shares go up to all that there is, which is
+// best where values hardly vary, from the one that is best for n values that vary as much as values with this mean can.
+// Where expectations differ, that of each product is at most one if their mean is at most `center`, since an arithmetic
+// mean is at least the geometric one.
+double capital_against_low(std::span<const double> values, double center, double level) {
+  const auto n = static_cast<double>(values.size());
+  const double least_stake = std::min(1.0, std::sqrt(2.0 * std::log(1.0 / level) * center / (n * (1.0 - center))));
   double sum = 0.0;
-  for (const double stake : stakes) {
+  for (std::size_t bet = 0; bet < bets; ++bet) {
+    const double stake = std::pow(least_stake, static_cast<double>(bet) / static_cast<double>(bets - 1));
     double capital = 1.0;
     for (const double value : values) capital *= 1.0 - stake + stake * value / center;
     sum += capital;
   }
-  return sum / static_cast<double>(stakes.size());
+  return sum / static_cast<double>(bets);
 }
 
 std::vector<double> mirrored(std::span<const double> values) {
@@ -38,7 +41,7 @@ double lower_bound(std::span<const double> values, double level) {
   double high = mean(values);
   for (int step = 0; step < 50; ++step) {
     const double center = 0.5 * (low + high);
-    (center > 0.0 && capital_against_low(values, center) >= 1.0 / level ? low : high) = center;
+    (center > 0.0 && capital_against_low(values, center, level) >= 1.0 / level ? low : high) = center;
   }
   return low;
 }
@@ -58,8 +61,9 @@ double betting_lower_bound(std::span<const double> values) {
 double betting_p(std::span<const double> values, double center) {
   assert(center > 0.0 && center < 1.0);
   if (values.empty()) return undefined;
+  const double level = significance / 2.0;
   const double most =
-      std::max(capital_against_low(values, center), capital_against_low(mirrored(values), 1.0 - center));
+      std::max(capital_against_low(values, center, level), capital_against_low(mirrored(values), 1.0 - center, level));
   return std::min(1.0, 2.0 / most);
 }
 

@@ -2,6 +2,7 @@
 // descriptive.hpp: descriptive statistics for the summaries of a run.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -24,6 +25,9 @@ struct Interval {
 double mean(std::span<const double> values);       // undefined without one
 double sample_sd(std::span<const double> values);  // with n - 1; needs two values
 double median(std::span<const double> values);     // needs one value; the mean of the middle two of an even number
+
+// Student's t for the mean of n >= 2 normal values: exceeded with this probability.
+double student_quantile(std::size_t n, double probability);
 
 // The p-quantile of ascending values, with linear interpolation (Hyndman and Fan's type 7).
 double quantile_of_sorted(std::span<const double> ascending, double p);

@@ -52,7 +52,10 @@ MeanAndError resampled(std::span<const double> values, double center, const Coun
   return mean_and_error(strata);
 }
 
-Interval bootstrap_t_interval(std::span<const double> values, double center, const Resampling& resampling) {
+// Not nearer to the mean than Student's interval at either end: with long tails on both sides the bootstrap-t is too
+// narrow, with one it is not, where Student's is.
+Interval bootstrap_t_interval(std::span<const double> values, double center, std::size_t n,
+                              const Resampling& resampling) {
   std::vector<Moments> strata(resampling.strata());
   const MeanAndError observed = resampled(
       values, center, [](std::size_t) { return 1.0; }, resampling, strata);
@@ -65,7 +68,9 @@ Interval bootstrap_t_interval(std::span<const double> values, double center, con
     studentised.push_back(drawn.error > 0.0 ? (drawn.mean - observed.mean) / drawn.error : undefined);
   }
   const Interval quantiles = percentile_interval(std::move(studentised));
-  return {center - quantiles.high * observed.error, center - quantiles.low * observed.error};
+  const double student = student_quantile(n, significance / 2.0);
+  return {center - std::fmax(student, quantiles.high) * observed.error,
+          center + std::fmax(student, -quantiles.low) * observed.error};
 }
 
 Interval interval_within(std::vector<double> values, const Interval& bounds) {
@@ -89,7 +94,7 @@ MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds,
   if (bounds && !defined.empty())
     result.interval = interval_within(std::move(defined), *bounds);
   else if (defined.size() >= fewest_for_bootstrap_t)
-    result.interval = bootstrap_t_interval(values, result.mean, resampling);
+    result.interval = bootstrap_t_interval(values, result.mean, result.n, resampling);
   return result;
 }
 

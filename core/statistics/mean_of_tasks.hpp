@@ -27,8 +27,8 @@ struct MeanOfTasks {
 };
 
 // The mean over observations (resampling.hpp). Its interval: of bounded values by betting (betting.hpp), from one
-// observation on; of unbounded ones by the bootstrap-t (Efron and Tibshirani 1993, section 12.5) from ten on, none
-// below. Where all unbounded values are equal, the interval is that value: the data show no spread.
+// observation on; of unbounded ones by the bootstrap-t (Efron and Tibshirani 1993, section 12.5) from ten on, at
+// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, the interval is that value: the data show no spread.
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
 
 // Of b - a, over tasks in which both are defined. `bounds`: of the values; the differences lie within the span between

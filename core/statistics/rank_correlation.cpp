@@ -247,19 +247,22 @@ std::vector<std::size_t> tasks_of(std::span<const EntryPairs> entries) {
   return tasks;
 }
 
-// The sum of products when the tasks' y change places: entry by entry in the order of the tasks' places, so that entries
-// without a gap have the same permutation.
-std::int64_t permuted_product(std::span<const EntryPairs> entries, const std::vector<Ranks>& x,
-                              const std::vector<Ranks>& y, const std::vector<std::size_t>& place) {
+// The place of each task in an entry's pairs; the number of pairs where it has none.
+std::vector<std::size_t> places_of_tasks(const EntryPairs& entry, std::size_t tasks) {
+  std::vector<std::size_t> places(tasks, entry.tasks.size());
+  for (std::size_t i = 0; i < entry.tasks.size(); ++i) places[entry.tasks[i]] = i;
+  return places;
+}
+
+// The sum of products of x with y in the order of `tasks`; tasks that an entry has no pair for are skipped.
+std::int64_t permuted_product(const std::vector<Ranks>& x, const std::vector<Ranks>& y,
+                              const std::vector<std::vector<std::size_t>>& place,
+                              const std::vector<std::size_t>& tasks) {
   std::int64_t sum = 0;
-  std::vector<std::size_t> order;
-  for (std::size_t entry = 0; entry < entries.size(); ++entry) {
-    const std::vector<std::size_t>& tasks = entries[entry].tasks;
-    order.resize(tasks.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return place[tasks[a]] < place[tasks[b]]; });
-    for (std::size_t i = 0; i < order.size(); ++i) sum += x[entry][i] * y[entry][order[i]];
+  for (std::size_t entry = 0; entry < x.size(); ++entry) {
+    std::size_t next = 0;
+    for (const std::size_t task : tasks)
+      if (const std::size_t own = place[entry][task]; own < x[entry].size()) sum += x[entry][next++] * y[entry][own];
   }
   return sum;
 }
@@ -293,13 +296,14 @@ RankCorrelation task_rank_correlation(std::span<const std::vector<double>> x, st
   if (std::isnan(result.rho)) return result;
 
   const std::int64_t observed = std::abs(product(ranks_x, ranks_y));
-  std::vector<std::size_t> place(resampling.tasks());
-  std::iota(place.begin(), place.end(), std::size_t{0});
+  std::vector<std::vector<std::size_t>> place;
+  for (const EntryPairs& one : entries) place.push_back(places_of_tasks(one, resampling.tasks()));
+  std::vector<std::size_t> order = tasks;
   toolkit::Stream random(seed, "statistics.task_rank_correlation");
   std::uint64_t as_far = 1;
   for (std::uint64_t draw = 0; draw < permutations; ++draw) {
-    random.shuffle(place);
-    if (std::abs(permuted_product(entries, ranks_x, ranks_y, place)) >= observed) ++as_far;
+    random.shuffle(order);
+    if (std::abs(permuted_product(ranks_x, ranks_y, place, order)) >= observed) ++as_far;
   }
   result.exact = false;
   result.p = static_cast<double>(as_far) / static_cast<double>(permutations + 1);
