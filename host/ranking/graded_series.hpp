@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/statistics/threshold.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {
