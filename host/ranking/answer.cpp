@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -57,7 +57,7 @@ class Contest {
     answer.ranking.front().standing = Standing::first;
     compare_with_first(answer);
     find_pareto_set(answer);
-    add_needed(answer);
+    add_deviation(answer);
     for (std::size_t i = 0; i < answer.siblings.size(); ++i) add_flips(answer, i);
     return answer;
   }
@@ -120,7 +120,7 @@ class Contest {
       by.differences = [this, one](std::size_t a, std::size_t b) { return differences(order_[a], order_[b], one); };
       by.higher_is_better = one.share();
       by.score = one.kind == Criterion::Kind::time ? core::PairedScore::ranks : core::PairedScore::mean;
-      by.margin = one.share() ? tolerated_share : tolerated_delay_s;
+      by.margin = one.share() ? tolerated_share : one.kind == Criterion::Kind::delay ? tolerated_delay_s : 0.0;
       by.bounds = bounds_of_values(one.share());
     }
     return core::best_set(order_.size(), criteria, resampling);
@@ -148,13 +148,10 @@ class Contest {
     for (std::size_t i = 0; i < found.size(); ++i) answer.ranking[i].pareto = found[i];
   }
 
-  static void add_needed(Answer& answer) {
-    double sd = 0.0;
+  static void add_deviation(Answer& answer) {
     for (const RankedCombination& one : answer.ranking)
-      if (one.standing == Standing::may_be_best && one.against[0].over_tasks.n >= least_for_needed)
-        sd = std::max(sd, one.against[0].over_tasks.sd);
-    answer.needed =
-        core::pairs_needed(sd, wished_difference, significant / static_cast<double>(answer.criteria.size()));
+      if (one.standing == Standing::may_be_best && one.against[0].over_tasks.n >= least_for_deviation)
+        answer.deviation = std::max(answer.deviation, one.against[0].over_tasks.sd);
   }
 
   static void add_flips(Answer& answer, std::size_t sibling) {
@@ -174,28 +171,51 @@ class Contest {
 
 }  // namespace
 
+std::string combination_name(const RankedCombination& one) {
+  return one.global_planner + " + " + one.local_controller;
+}
+
+std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference) {
+  return core::pairs_needed(answer.deviation, difference, significant / static_cast<double>(answer.criteria.size()));
+}
+
 std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
   if (measures.criteria().empty()) return {};
   const Tasks tasks = tasks_of(trials);
-  std::vector<Answer> found;
-  const auto add = [&](const CombinationLabels* only) {
-    Contest contest(measures, tasks, make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {
-                      const std::optional<Split> split = by_planner_and_controller(trials[i]);
-                      return only && split && split->cell != *only ? std::nullopt : split;
-                    }));
-    if (contest.has_rivals()) found.push_back(contest.answer());
-  };
-  add(nullptr);
   std::vector<CombinationLabels> cells;
   for (const TrialRecord& trial : trials)
     if (const auto split = by_planner_and_controller(trial);
         split && trial.outcome != trial_outcome::skipped &&
         std::find(cells.begin(), cells.end(), split->cell) == cells.end())
       cells.push_back(split->cell);
+  const auto answer_of = [&](const std::function<bool(const CombinationLabels&)>& included) -> std::optional<Answer> {
+    Contest contest(measures, tasks, make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {
+                      const std::optional<Split> split = by_planner_and_controller(trials[i]);
+                      return split && included(split->cell) ? split : std::nullopt;
+                    }));
+    return contest.has_rivals() ? std::optional(contest.answer()) : std::nullopt;
+  };
+  std::vector<Answer> found;
+  if (auto answer = answer_of([](const CombinationLabels&) { return true; })) {
+    std::set<std::string> models;
+    for (const CombinationLabels& cell : cells) models.insert(cell.pedestrian_model);
+    for (const std::string& model : models) {
+      if (models.size() < 2) break;
+      const auto of_model = answer_of([&](const CombinationLabels& cell) { return cell.pedestrian_model == model; });
+      if (!of_model) continue;
+      Answer::WithPeople& with = answer->with_people.emplace_back(Answer::WithPeople{model, {}});
+      for (const RankedCombination& one : of_model->ranking)
+        if (one.standing != Standing::worse) with.best.push_back(combination_name(one));
+      std::sort(with.best.begin(), with.best.end());
+    }
+    found.push_back(std::move(*answer));
+  }
   if (cells.size() > 1)
-    for (const CombinationLabels& cell : cells) add(&cell);
+    for (const CombinationLabels& cell : cells)
+      if (auto answer = answer_of([&](const CombinationLabels& other) { return other == cell; }))
+        found.push_back(std::move(*answer));
   return found;
 }
 

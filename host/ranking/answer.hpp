@@ -53,16 +53,26 @@ struct Answer {
   std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
   std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
 
-  // Tasks that would show a difference of 5 points in the first criterion, from the largest deviation among those that
-  // may be the best. None below ten tasks, or where nothing deviates.
-  std::optional<std::uint64_t> needed;
+  // With several pedestrian models, by model: names of those that may be the best (combination_name()).
+  struct WithPeople {
+    std::string pedestrian_model;
+    std::vector<std::string> best;
+  };
+  std::vector<WithPeople> with_people;
+
+  // Of paired differences in the first criterion, the largest among those that may be the best; 0 below ten tasks.
+  double deviation = 0.0;
 };
 
-inline constexpr double wished_difference = 0.05;
-inline constexpr std::uint32_t least_for_needed = 10;
+inline constexpr std::uint32_t least_for_deviation = 10;
 
-// An entry is not inferior whose share is lower by less, or the delay of whose people is longer by less: then the next
-// criterion may tell.
+// "CBS + DWA"
+std::string combination_name(const RankedCombination& one);
+
+// Tasks that would show this difference in the first criterion with a probability of 80 %; none where nothing deviates.
+std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference);
+
+// Mean differences that decide nothing: then the next criterion may tell.
 inline constexpr double tolerated_share = 0.05;
 inline constexpr double tolerated_delay_s = 0.5;
 

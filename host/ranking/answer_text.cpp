@@ -90,6 +90,16 @@ std::string worse_line(const Answer& answer) {
   return names.empty() ? "" : "Not the best: " + list_words(names) + ".";
 }
 
+// Who may be the best with each kind of people, where that differs: in how they notice robots, for example.
+std::string people_line(const Answer& answer) {
+  const auto& all = answer.with_people;
+  if (std::all_of(all.begin(), all.end(), [&](const auto& one) { return one.best == all.front().best; })) return "";
+  std::vector<std::string> words;
+  for (const Answer::WithPeople& one : all)
+    words.push_back(fmt::format("with {} it is among {}", one.pedestrian_model, list_words(one.best)));
+  return fmt::format("It depends on the people: {}.", fmt::join(words, "; "));
+}
+
 // The combinations that no other beats in everything, where people or safety have a price.
 std::string pareto_line(const Answer& answer) {
   const auto names = names_of(answer, [](const RankedCombination& one) { return one.pareto; });
@@ -142,16 +152,12 @@ std::string tasks_line(const Answer& answer) {
   constexpr double most_mean_share = 0.9;
   double mean = 0.0;
   for (const RankedCombination& one : answer.ranking) mean += one.means[0] / static_cast<double>(answer.ranking.size());
-  if (answer.tasks < least_for_needed || (mean >= least_mean_share && mean <= most_mean_share)) return "";
+  if (answer.tasks < least_for_deviation || (mean >= least_mean_share && mean <= most_mean_share)) return "";
   return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
                      mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
 }
 
 }  // namespace
-
-std::string combination_name(const RankedCombination& one) {
-  return one.global_planner + " + " + one.local_controller;
-}
 
 std::string difference_words(const Answer& answer, const RankedCombination& one, std::size_t criterion) {
   const Criterion& by = answer.criteria[criterion];
@@ -175,6 +181,7 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   };
   add(best_line(answer));
   if (answer.in_general) add(general_line(answer));
+  add(people_line(answer));
   add(worse_line(answer));
   const auto worse = std::find_if(answer.ranking.rbegin(), answer.ranking.rend(),
                                   [](const RankedCombination& one) { return !may_be_best(one); });
@@ -182,9 +189,9 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   add(pareto_line(answer));
   if (!answer.flips.empty()) add(flip_line(answer));
   add(tasks_line(answer));
-  if (answer.needed)
+  if (const auto needed = tasks_needed(answer, tolerated_share))
     add(fmt::format("A difference of 5 points in {} would show with about {} (from how the pairs deviate).",
-                    answer.criteria.front().name, counted(*answer.needed, "task")));
+                    answer.criteria.front().name, counted(*needed, "task")));
   return lines;
 }
 

@@ -23,9 +23,9 @@ struct BestMark {
 enum class Contestants { planners_and_controllers, planners };
 
 // One mark at most for each metric among the rows of a scenario, number of robots and pedestrian model: the row that
-// alone may be the best, with 95 % confidence (best_set.hpp), each metric by itself. A robot that fails drives less: metrics of
-// driving are marked only where all rows have the same success. Measured times of the machine are not marked: the same
-// code takes longer in one trial than in another. Rows by planner are compared over all pedestrian models.
+// alone may be the best, with 95 % confidence (core::best_set), each metric by itself. A robot that fails drives less:
+// metrics of driving are marked only where all rows have the same success. Measured times of the machine are not marked:
+// the same code takes longer in one trial than in another. Rows by planner are compared over all pedestrian models.
 std::vector<BestMark> best_marks(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                                  std::span<const TrialRecord> trials, Contestants contestants);
 

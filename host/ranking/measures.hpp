@@ -20,9 +20,9 @@ inline constexpr double rounding = 1e-9;
 // [trial][robot]: one metric's values for robots; none if undefined or not measured.
 using RobotValues = std::vector<std::vector<std::optional<double>>>;
 
-// In each trial the delay of people by the robots, s; none if no trial without robots had the same crowd. Let P(t) be the
-// mean progress of a person towards its goals by time t, P0(t) the progress without robots, v the mean desired speed and T
-// the last second that both trials have (the end of the mission if people are still present without robots). Then
+// In each trial the delay of people by the robots, s; none if no trial without robots had the same crowd. Let P(t) be
+// the mean progress of a person towards its goals by time t, P0(t) the progress without robots, v the mean desired speed
+// and T the last second that both trials have (the end of the mission if people are still present without robots). Then
 //   delay = (P0(T) - P(T)) / v
 // is the time that a person needs to walk the lost distance. It is negative if people progress faster with robots.
 std::vector<std::optional<double>> people_delays(const SummaryLayout& layout, std::span<const TrialRecord> trials);

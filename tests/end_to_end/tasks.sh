@@ -59,6 +59,22 @@ found=$(sqlite3 :memory: "SELECT printf('%+.3f [%+.3f, %+.3f]', json_extract(j, 
 # more tasks than were declared: the manifest tells
 sed 's/drawn = 5/drawn = 40/' "$scratch/tasks.toml" >"$scratch/many.toml"
 expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 2 --out "$scratch/grown"
-expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 3 --resume --out "$scratch/grown"
+expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 12 --resume --out "$scratch/grown"
 sed -n '/"grown_from"/,/\]/p' "$scratch/grown/manifest.json" | tr -d ' \n' | grep -qF '"grown_from":[2]' ||
   fail "the manifest does not say that the run grew"
+
+# validate says how many tasks would show the smallest effect of interest, by how those of the last run differ
+cd "$scratch" || exit 1
+expect_status 0 "$host" validate many.toml
+[[ $(wc -l <"$scratch/stdout") == 1 ]] || fail "validate knows of a run that is not there: $(cat "$scratch/stdout")"
+mkdir runs && mv grown runs/crossing
+forge runs/crossing "UPDATE value SET value = (SELECT CASE WHEN local_controller = 'DWA' AND repetition = 3 THEN 0.5 ELSE 1 END
+  FROM trial WHERE id = trial_id) WHERE metric = 'safe_success' AND subject_kind = 'system'"
+needed() { # SMALLEST_EFFECT
+  { cat many.toml && printf '[benchmark]\nsmallest_effect = %s\n' "$1"; } >effect.toml
+  expect_status 0 "$host" validate effect.toml
+  sed -n "s/^A difference of $1 in safe success would show with about \([0-9]*\) tasks (from .* runs\/crossing)$/\1/p" "$scratch/stdout"
+}
+small=$(needed 0.05)
+large=$(needed 0.2)
+[[ $small -gt $large && $large -gt 0 ]] || fail "0.05 needs '$small' tasks, 0.2 '$large': $(cat "$scratch/stdout")"

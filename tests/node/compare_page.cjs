@@ -24,7 +24,7 @@ const scratch = scratch_folder();
 function compared() {
   const crossing = fs
     .readFileSync(path.join(source, 'tests/end_to_end/crossing.toml'), 'utf8')
-    .replace('use = "crossing"', '$&\nrobots = 2\ntasks = { drawn = 40 }');
+    .replace('use = "crossing"', '$&\nstart_jitter = { position_m = 0.02 }');
   const env = {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')};
   const run = (name, text) => {
     const experiment = path.join(scratch, `${name}.toml`);

@@ -35,7 +35,7 @@ const crossing = run_crossing('crossing');
 const run_tasks = (name, ...options) => {
   const experiment = path.join(scratch, `${name}.toml`);
   const crossing = fs.readFileSync(path.join(source, 'tests/end_to_end/crossing.toml'), 'utf8');
-  fs.writeFileSync(experiment, crossing.replace('use = "crossing"', '$&\nrobots = 2\ntasks = { drawn = 40 }'));
+  fs.writeFileSync(experiment, crossing.replace('use = "crossing"', '$&\nstart_jitter = { position_m = 0.02 }'));
   return run_experiment(experiment, path.join(scratch, name), {
     env: {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')},
     options,

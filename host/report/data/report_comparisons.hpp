@@ -31,8 +31,8 @@ struct PairedComparison {
   double effect;                // matched-pairs rank-biserial correlation
 };
 
-// For the metrics of the layout, in its order. Omits pairs of combinations without a common trial (for `both_succeeded`:
-// one in which both succeeded).
+// For the metrics of the layout, in its order. Omits pairs of combinations without a situation that both met (for
+// `both_succeeded`: one in which both succeeded).
 std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const ExperimentFacts& facts,
                                                  const ReportLayout& layout,
                                                  std::span<const std::string> counts_failures);

@@ -7,9 +7,9 @@
 //                     sign_flip, exact, equal, p, p_holm}]; differences are b - a; p: null below five tasks, or if
 //                     nothing differs
 //   answers           [{heading, tasks, worlds, lines, cells: [labels], criteria: [{name, unit}], ranking:
-//                     [{global_planner, local_controller, trials, means, standing: first | may_be_best | worse, decided:
-//                     criterion, words, pareto, intervals: [[low, high]], against: [{tasks, mean, low, high, equal}]}]}]:
-//                     answer.hpp; the first is over everything
+//                     [{global_planner, local_controller, trials, means, standing: first | may_be_best | worse,
+//                     decided: criterion, words, pareto, intervals: [[low, high]], against: [{tasks, mean, low, high,
+//                     equal}]}]}]: answer.hpp; the first is over everything
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
 //   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp

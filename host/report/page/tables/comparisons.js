@@ -118,7 +118,7 @@ function note_words(data, rows, chosen) {
     `\u22121 to 1. Tasks: those ${successes ? 'in which both trials succeeded' : 'with values in both trials'}, ` +
     'each the mean over its crowds.' +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
-    ` Below ${numbers.FEWEST} tasks there is no p.`
+    ` Below ${numbers.FEWEST} tasks there is no p. ${labels.population(data)}`
   );
 }
 

@@ -67,7 +67,7 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Bars: 95 % intervals over tasks, from ten on. Filled: the interval excludes zero.'
+      `Bars: 95 % intervals over tasks, from ten on. Filled: the interval excludes zero. ${labels.population(data)}`
     )
   );
 }

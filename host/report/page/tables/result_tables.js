@@ -181,7 +181,7 @@ function table_element(data, {layout, variants}) {
     ...bodies.map((one) => one.body)
   );
   const sort = sorter(table, model, bodies);
-  return titled_table(`title-${layout.id}`, layout.title, layout.note, table);
+  return titled_table(`title-${layout.id}`, layout.title, [layout.note, labels.population(data)].filter(Boolean).join(' '), table);
 }
 
 const KEY =

@@ -48,6 +48,10 @@ std::vector<std::string> lines_of(const std::vector<TrialRecord>& trials) {
   return answer_lines(answer_of(trials), failure_causes(ranking_layout(), trials));
 }
 
+std::vector<std::string> lines_of_first(const std::vector<TrialRecord>& trials) {
+  return answer_lines(answers_of(trials).front(), failure_causes(ranking_layout(), trials));
+}
+
 std::vector<std::string> order_of(const Answer& answer) {
   std::vector<std::string> names;
   for (const RankedCombination& one : answer.ranking) names.push_back(one.local_controller);
@@ -96,7 +100,7 @@ TEST_CASE("two labels for one controller are the same", "[ranking]") {
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"one", "two"});
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
-  CHECK_FALSE(answer.needed);  // nothing deviates
+  CHECK_FALSE(tasks_needed(answer, 0.05));  // nothing deviates
   CHECK_THAT(answer_lines(answer, {}).front(),
              Contains("the best of these is among P + one and P + two (as the first in every trial). First: P + one"));
 }
@@ -109,7 +113,7 @@ TEST_CASE("fewer than five tasks tell nothing apart, and say so", "[ranking]") {
   CHECK(order_of(answer) == Names{"good", "fails"});
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
   CHECK(std::isnan(answer.ranking[1].against[0].p));
-  CHECK_FALSE(answer.needed);  // below ten
+  CHECK_FALSE(tasks_needed(answer, 0.05));  // below ten
   CHECK_THAT(answer_lines(answer, {}).front(), Contains("Fewer than 5 tasks tell nothing apart."));
 }
 
@@ -120,8 +124,10 @@ TEST_CASE("a rare failure does not make a combination worse", "[ranking]") {
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"good", "nearly"});
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
-  // sd of nineteen 0 and one -0.5: 0.1118, at a level of 0.05 / 2: ((2.241 + 0.842) * 0.1118 / 0.05)^2 + 2.241^2 / 2 = 50.0
-  CHECK(answer.needed.value() == 51);
+  // sd of nineteen 0 and one -0.5: 0.1118, at a level of 0.05 / 2:
+  // ((2.241 + 0.842) * 0.1118 / 0.05)^2 + 2.241^2 / 2 = 50.0
+  CHECK(tasks_needed(answer, 0.05).value() == 51);
+  CHECK(tasks_needed(answer, 0.1).value() < 20);
   CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
                                    "A difference of 5 points in safe would show with about 51 tasks (from how the "
                                    "pairs deviate).")));
@@ -265,6 +271,23 @@ TEST_CASE("several scenarios have an answer each, and one together", "[ranking]"
     CHECK(answers_of(trials)[0].ranking.size() == 2);
     CHECK(answers_of(trials)[1].ranking.size() == 3);
   }
+}
+
+TEST_CASE("the answer says where it depends on the people", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 20, always(both_arrive));
+  add_trials(trials, "b", 20, always(one_fails));
+  const std::size_t count = trials.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    trials.push_back(trials[i]);
+    trials.back().pedestrian_model = "blind crowd";
+  }
+  for (const std::string& line : lines_of_first(trials)) CHECK_THAT(line, !Contains("people"));
+  for (std::size_t i = count; i < trials.size(); ++i)
+    trials[i].local_controller = trials[i].local_controller == "a" ? "b" : "a";
+  CHECK_THAT(lines_of_first(trials),
+             Catch::VectorContains(std::string(
+                 "It depends on the people: with blind crowd it is among P + b; with crowd it is among P + a.")));
 }
 
 TEST_CASE("a trial that ended in a fault counts as a failure", "[ranking]") {

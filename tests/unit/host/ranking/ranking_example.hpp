@@ -24,7 +24,8 @@ inline std::vector<host::MetricColumn> ranking_metrics() {
 inline host::SummaryLayout ranking_layout() {
   return host::parse_summary_layout(R"({"arrived": "done", "counts_failures": ["safe", "untouched_done", "done"],
       "of_plans": ["planned", "plan_ms"],
-      "answer": {"shares": ["safe"], "siblings": ["untouched_done", "excused_done"], "people_progress": "progress", "people_speed": "desired",
+      "answer": {"shares": ["safe"], "siblings": ["untouched_done", "excused_done"],
+      "people_progress": "progress", "people_speed": "desired",
       "time": "time", "way_length": "way"}})",
                                     "layout");
 }
