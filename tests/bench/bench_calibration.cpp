@@ -49,9 +49,10 @@ int main(int argc, char** argv) {
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--procedure", only, "rows of this procedure alone")->type_name("NAME");
-  CLI::Option* fixed = app.add_flag("--examples", "print statistics of fixed values instead");
+  bool fixed = false;
+  app.add_flag("--examples", fixed, "print statistics of fixed values instead");
   CLI11_PARSE(app, argc, argv);
-  if (*fixed) {
+  if (fixed) {
     for (const auto& [name, value] : examples()) fmt::print("{} {}\n", name, value);
     return 0;
   }

@@ -20,11 +20,14 @@ std::vector<std::pair<std::string, double>> examples() {
   const core::Resampling resampling(std::vector<std::uint32_t>(12), core::Scope::these_worlds, 0);
   const core::HodgesLehmann shift = core::hodges_lehmann(differences);
   const core::Interval share = core::betting_interval(nine_of_twelve);
+  const std::vector<std::vector<double>> of_x{differences};  // one entry
+  const std::vector<std::vector<double>> of_y{y};
+  const core::RankCorrelation correlation = core::task_rank_correlation(of_x, of_y, resampling);
   return {{"signed_rank_p", core::signed_rank_test(differences).p},
           {"sign_flip_p", core::sign_flip_test(differences).p},
           {"hodges_lehmann", shift.estimate},
-          {"spearman_rho", core::task_rank_correlation(std::vector{differences}, std::vector{y}, resampling).rho},
-          {"spearman_p", core::task_rank_correlation(std::vector{differences}, std::vector{y}, resampling).p},
+          {"spearman_rho", correlation.rho},
+          {"spearman_p", correlation.p},
           {"student_975_of_12", core::student_quantile(12, 0.025)},
           {"betting_low", share.low},
           {"betting_high", share.high}};
