@@ -58,13 +58,4 @@ double betting_lower_bound(std::span<const double> values) {
   return values.empty() ? undefined : lower_bound(values, significance);
 }
 
-double betting_p(std::span<const double> values, double center) {
-  assert(center > 0.0 && center < 1.0);
-  if (values.empty()) return undefined;
-  const double level = significance / 2.0;
-  const double most =
-      std::max(capital_against_low(values, center, level), capital_against_low(mirrored(values), 1.0 - center, level));
-  return std::min(1.0, 2.0 / most);
-}
-
 }  // namespace dmrp::core

@@ -19,7 +19,4 @@ Interval betting_interval(std::span<const double> values);
 // One-sided, 95 %: the mean is not below it.
 double betting_lower_bound(std::span<const double> values);
 
-// A p value of "the mean is `center`", two-sided.
-double betting_p(std::span<const double> values, double center);
-
 }  // namespace dmrp::core

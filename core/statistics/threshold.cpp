@@ -115,28 +115,25 @@ Threshold half_threshold(std::span<const LevelOutcomes> levels) {
 
 namespace {
 
-// From the resampled positions.
-ThresholdEstimate estimate_from(std::span<const LevelOutcomes> levels, std::vector<double> positions) {
-  ThresholdEstimate estimate{half_threshold(levels), {}, {}};
-  std::sort(positions.begin(), positions.end());
-  // positions themselves, not means of two: between a level and "beyond" there is nothing
-  const auto last = static_cast<double>(positions.size() - 1);
-  estimate.low = threshold_at(levels, positions[static_cast<std::size_t>(std::floor(0.025 * last))]);
-  estimate.high = threshold_at(levels, positions[static_cast<std::size_t>(std::ceil(0.975 * last))]);
-  return estimate;
+ThresholdBracket bracket_of(std::span<const LevelOutcomes> levels) {
+  const Means means = means_of(levels, all_repetitions(levels));
+  const std::vector<double> fit = isotonic_fit(means.values, means.weights);
+  const auto passed = std::find_if(fit.begin(), fit.end(), [](double value) { return value >= half - of_rounding; });
+  const auto level_at = [&](auto found) {
+    return levels[means.levels[static_cast<std::size_t>(found - fit.begin())]].level;
+  };
+  ThresholdBracket bracket;
+  if (passed != fit.begin()) bracket.last_failed = level_at(passed - 1);
+  if (passed != fit.end()) bracket.first_passed = level_at(passed);
+  bracket.is_steep =
+      bracket.last_failed && bracket.first_passed && *(passed - 1)<of_rounding&& * passed> 1.0 - of_rounding;
+  return bracket;
 }
 
 }  // namespace
 
-ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const BootstrapSettings& settings) {
-  const BootstrapDraws draws(levels.front().by_repetition.size(), settings);
-  std::vector<double> positions;
-  for (std::size_t i = 0; i < draws.resamples(); ++i)
-    positions.push_back(position_of(means_of(levels, draws.resample(i)), levels.size()));
-  return estimate_from(levels, std::move(positions));
-}
-
 ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const Resampling& resampling) {
+  ThresholdEstimate estimate{half_threshold(levels), {}, {}, bracket_of(levels)};
   std::vector<double> positions;
   std::vector<std::size_t> drawn;
   for (std::size_t i = 0; i < resampling.resamples(); ++i) {
@@ -145,22 +142,13 @@ ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, cons
       drawn.insert(drawn.end(), resampling.counts(i)[resampling.observation_of_task(task)], task);
     positions.push_back(position_of(means_of(levels, drawn), levels.size()));
   }
-  return estimate_from(levels, std::move(positions));
-}
-
-ThresholdBracket threshold_bracket(std::span<const LevelOutcomes> levels) {
-  const Means means = means_of(levels, all_repetitions(levels));
-  const std::vector<double> fit = isotonic_fit(means.values, means.weights);
-  ThresholdBracket bracket;
-  const auto passed = std::find_if(fit.begin(), fit.end(), [](double value) { return value >= half - of_rounding; });
-  const auto level_at = [&](auto found) {
-    return levels[means.levels[static_cast<std::size_t>(found - fit.begin())]].level;
-  };
-  if (passed != fit.begin()) bracket.last_failed = level_at(passed - 1);
-  if (passed != fit.end()) bracket.first_passed = level_at(passed);
-  bracket.is_steep =
-      bracket.last_failed && bracket.first_passed && *(passed - 1)<of_rounding&& * passed> 1.0 - of_rounding;
-  return bracket;
+  if (positions.empty()) return estimate;
+  std::sort(positions.begin(), positions.end());
+  // positions themselves, not means of two: between a level and "beyond" there is nothing
+  const auto last = static_cast<double>(positions.size() - 1);
+  estimate.low = threshold_at(levels, positions[static_cast<std::size_t>(std::floor(0.025 * last))]);
+  estimate.high = threshold_at(levels, positions[static_cast<std::size_t>(std::ceil(0.975 * last))]);
+  return estimate;
 }
 
 }  // namespace dmrp::core

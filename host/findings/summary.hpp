@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
 #include "core/statistics/descriptive.hpp"
 #include "host/findings/findings.hpp"
 #include "host/results/trial_record.hpp"

@@ -71,21 +71,19 @@ Place place_between(std::span<const BoundedValue> observations, bool higher_is_b
       paired_difference(gains, higher_is_better ? PairedTest::sign_flip : PairedTest::signed_rank, resampling);
   if (!(gain.p < significant) || (gain.over_tasks.mean > 0.0) != higher_is_better) return result;
 
-  const auto place_of = [&](auto&& indices) {
+  const auto place_of = [&](auto&& count) {
     double of_value = 0.0;
     double of_upper = 0.0;
-    for (const std::size_t i : indices) {
-      of_value += observations[i].value - observations[i].lower;
-      of_upper += gains[i];
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      of_value += count(i) * (observations[i].value - observations[i].lower);
+      of_upper += count(i) * gains[i];
     }
     return of_upper != 0.0 && (of_upper > 0.0) == higher_is_better ? of_value / of_upper : core::undefined;
   };
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < observations.size(); ++i) all.push_back(i);
-  result.place = place_of(all);
-  const core::BootstrapDraws draws(observations.size());
+  result.place = place_of([](std::size_t) { return 1.0; });
   std::vector<double> resampled;
-  for (std::size_t i = 0; i < draws.resamples(); ++i) resampled.push_back(place_of(draws.resample(i)));
+  for (std::size_t k = 0; k < resampling.resamples(); ++k)
+    resampled.push_back(place_of([&](std::size_t i) { return static_cast<double>(resampling.counts(k)[i]); }));
   result.interval = core::percentile_interval(std::move(resampled));
   return result;
 }

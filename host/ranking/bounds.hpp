@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 #include "host/findings/summary.hpp"
 #include "host/results/summary_layout.hpp"
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/calibration/examples.hpp"
 #include "tests/bench/calibration/rows.hpp"
 
 namespace {
@@ -48,7 +49,13 @@ int main(int argc, char** argv) {
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--procedure", only, "rows of this procedure alone")->type_name("NAME");
+  bool fixed = false;
+  app.add_flag("--examples", fixed, "print statistics of fixed values instead");
   CLI11_PARSE(app, argc, argv);
+  if (fixed) {
+    for (const auto& [name, value] : examples()) fmt::print("{} {}\n", name, value);
+    return 0;
+  }
   int missed = 0;
   fmt::print("| procedure | truth | n | measure | measured | target | mean width |\n|---|---|---|---|---|---|---|\n");
   for (const auto& list : {best_set_rows(), test_rows(), interval_rows()})

@@ -32,7 +32,7 @@ struct Benchmark {
     std::vector<core::Criterion> found;
     if (!shares.empty())
       found.push_back({core::differences_of(shares), true, PairedScore::mean, 0.05, core::share_bounds});
-    if (!delays.empty()) found.push_back({core::differences_of(delays), false, PairedScore::ranks, 0.5, {}});
+    if (!delays.empty()) found.push_back({core::differences_of(delays), false, PairedScore::mean, 0.5, {}});
     if (!times.empty()) found.push_back({core::differences_of(times), false, PairedScore::ranks, 0.0, {}});
     return found;
   }

@@ -11,6 +11,7 @@
 
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/sample_size.hpp"
 #include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
@@ -22,6 +23,11 @@ namespace dmrp::bench {
 using namespace host;
 
 namespace {
+
+// Intervals of shares need no resamples.
+core::Resampling one_world(std::size_t tasks) {
+  return {std::vector<std::uint32_t>(tasks), core::Scope::these_worlds, 0};
+}
 
 constexpr std::uint64_t halvings = 100;
 
@@ -261,13 +267,11 @@ std::optional<RunInteraction> run_interaction(const Discrimination& result, std:
   out.effect = interaction_effect(table);
   if (table.size() != 2 || runs.size() != 2) return out;
   std::vector<double> all;
-  std::vector<std::vector<double>> clusters;
-  for (std::size_t task = 0; task < table[0][0].size(); ++task) {
+  for (std::size_t task = 0; task < table[0][0].size(); ++task)
     all.push_back((table[0][1][task] - table[0][0][task]) - (table[1][1][task] - table[1][0][task]));
-    clusters.push_back({all.back()});
-  }
-  out.difference = core::mean(all);
-  out.interval = core::cluster_bootstrap_interval(clusters);
+  const core::MeanOfTasks over_tasks = core::mean_of_tasks(all, core::Interval{-2.0, 2.0}, one_world(all.size()));
+  out.difference = over_tasks.mean;
+  out.interval = over_tasks.interval;
   return out;
 }
 
@@ -281,13 +285,10 @@ std::optional<EntryContrast> contrast(const Discrimination& result, const std::s
   const auto b = entry(second);
   if (a == result.entries.end() || b == result.entries.end()) return std::nullopt;
   std::vector<double> differences;
-  std::vector<std::vector<double>> clusters;
-  for (std::size_t task = 0; task < a->shares.size(); ++task) {
-    differences.push_back(b->shares[task] - a->shares[task]);
-    clusters.push_back({differences.back()});
-  }
-  return EntryContrast{core::mean(differences), core::cluster_bootstrap_interval(clusters),
-                       core::sign_flip_test(differences).p};
+  for (std::size_t task = 0; task < a->shares.size(); ++task) differences.push_back(b->shares[task] - a->shares[task]);
+  const core::MeanOfTasks over_tasks =
+      core::difference_of_tasks(differences, core::share_bounds, one_world(differences.size()));
+  return EntryContrast{over_tasks.mean, over_tasks.interval, core::sign_flip_test(differences).p};
 }
 
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars) {
