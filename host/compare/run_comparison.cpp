@@ -215,7 +215,7 @@ Verdict judge(const FailCondition& condition, const MetricComparison& comparison
   const auto is_beyond = [&](double value) {
     return condition.below ? value < condition.limit : value > condition.limit;
   };
-  if (comparison.difference.over_tasks.n > 0 && comparison.difference.equal && !is_beyond(0.0)) return Verdict::holds;
+  if (comparison.pairs > 1 && comparison.difference.equal && !is_beyond(0.0)) return Verdict::holds;
   if (std::isnan(interval.low)) return Verdict::undecided;
   const bool low = is_beyond(interval.low);
   const bool high = is_beyond(interval.high);

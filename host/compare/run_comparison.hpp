@@ -61,8 +61,8 @@ struct FailCondition {
 };
 FailCondition parse_fail_condition(const std::string& text);  // throws InputError
 
-// Whether the true difference lies beyond the limit: if the whole interval does, it does; if no part of it does, or the
-// runs are equal in every task, it does not.
+// Whether the true difference lies beyond the limit: if the whole interval does, it does; if no part of it does, or two
+// trials at least are equal in both runs and none differs, it does not.
 enum class Verdict { holds, fails, undecided };
 Verdict judge(const FailCondition& condition, const MetricComparison& comparison);
 
