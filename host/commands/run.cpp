@@ -136,6 +136,9 @@ class RunFiles {
     check_rows(ResultsDatabase::open(database()), experiment, directory());
     manifest.started_at = std::move(before.started_at);
     manifest.command_line = std::move(before.command_line);
+    manifest.experiment.grown_from = std::move(before.experiment.grown_from);
+    if (before.experiment.repetitions < manifest.experiment.repetitions)
+      manifest.experiment.grown_from.push_back(before.experiment.repetitions);
     describe(experiment, manifest);
   }
 

@@ -59,6 +59,7 @@ struct Experiment {
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
+  double smallest_effect = 0.05;      // that is of interest, in the first criterion of the answer: changes no result
   std::vector<std::string> warnings;  // one line each
 };
 

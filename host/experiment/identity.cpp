@@ -85,7 +85,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
   for (std::string line; std::getline(lines, line);) reader.read(line);
   std::map<std::string, std::string> identity = reader.take();
   identity["behaviour"] = std::to_string(behaviour);
-  for (const char* key : {"experiment.name", "experiment.trials", "experiment.plugins", "limits.visible"})
+  for (const char* key :
+       {"experiment.name", "experiment.trials", "experiment.plugins", "limits.visible", "benchmark.smallest_effect"})
     identity.erase(key);
   if (const std::vector<std::string> variables = passed_environment(); !variables.empty())
     identity["environment"] = toml_text(variables);

@@ -196,6 +196,7 @@ TomlKeys root_keys() {
                     {"robot"},
                     {"robot_type"},
                     {"record"},
+                    {"benchmark"},
                     {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});

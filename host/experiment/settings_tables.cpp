@@ -158,6 +158,10 @@ Settings record_settings(Experiment& experiment) {
           boolean("annotations", experiment.annotations)};
 }
 
+Settings benchmark_settings(Experiment& experiment) {
+  return {positive("smallest_effect", experiment.smallest_effect, 1.0)};
+}
+
 // Relative to the folder of the experiment.
 Setting visible_setting(VisiblePaths& to, const std::filesystem::path& base) {
   const auto read = [&to, base](const TomlValue& value) {
@@ -242,6 +246,9 @@ void read_run_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("record")) table->read(readers_of(record_settings(experiment)));
   });
   mistakes.attempt([&] {
+    if (const auto table = root.find_table("benchmark")) table->read(readers_of(benchmark_settings(experiment)));
+  });
+  mistakes.attempt([&] {
     if (const auto table = root.find_table("limits"))
       table->read(readers_of(limits_settings(experiment.limits, experiment.file.parent_path())));
   });
@@ -254,6 +261,7 @@ std::vector<TomlKeys> settings_keys() {
                                 keys_of("[recovery]", recovery_settings(unused.simulation.recovery)),
                                 keys_of("[ending]", ending_settings(unused.simulation)),
                                 keys_of("[record]", record_settings(unused)),
+                                keys_of("[benchmark]", benchmark_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   for (TomlKeys& table : keys)
@@ -278,6 +286,7 @@ std::string settings_text(const Experiment& experiment) {
   copy.scans = experiment.scans;
   copy.annotations = experiment.annotations;
   copy.limits = experiment.limits;
+  copy.smallest_effect = experiment.smallest_effect;
   Settings simulation = simulation_settings(copy.simulation);
   if (!experiment.time_limit_set)
     std::erase_if(simulation, [](const Setting& setting) { return setting.key == "time_limit_s"; });
@@ -288,7 +297,8 @@ std::string settings_text(const Experiment& experiment) {
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
   return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + robots +
          "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
-         lines_of(record_settings(copy), 11) + "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
+         lines_of(record_settings(copy), 11) + "\n[benchmark]\n" + lines_of(benchmark_settings(copy), 15) +
+         "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
 }
 
 }  // namespace dmrp::host

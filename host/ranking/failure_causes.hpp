@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
 

@@ -45,6 +45,10 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
       answer.shares = value.get<std::vector<std::string>>();
     else if (key == "siblings")
       answer.siblings = value.get<std::vector<std::string>>();
+    else if (key == "people_progress")
+      answer.people_progress = value.get<std::string>();
+    else if (key == "people_speed")
+      answer.people_speed = value.get<std::string>();
     else if (key == "time")
       answer.time = value.get<std::string>();
     else if (key == "way_length")

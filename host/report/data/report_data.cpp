@@ -7,6 +7,7 @@
 #include <set>
 
 #include "host/files/read_file.hpp"
+#include "host/findings/summary.hpp"
 #include "host/ranking/bounds.hpp"
 #include "host/ranking/graded_series.hpp"
 #include "host/report/data/report_curves.hpp"
@@ -14,7 +15,6 @@
 #include "host/report/data/report_json.hpp"
 #include "host/report/data/report_statistics.hpp"
 #include "host/results/arrivals_by_type.hpp"
-#include "host/results/summary.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -128,6 +128,7 @@ Json values_json(const ReportFrame& frame, const std::set<std::size_t>& curves) 
 
 Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
   return {{"trials", trials},
+          {"tasks", summary.tasks},
           {"defined", summary.defined},
           {"mean", summary.mean},
           {"sd", summary.sd},
@@ -180,7 +181,8 @@ Json curves_json(const ReportFrame& frame, std::span<const MetricCurve> curves, 
     const auto axis = std::find_if(axes.begin(), axes.end(), [&](const auto& one) { return one.metric == metric; });
     Json points = Json::array();
     for (const CurvePoint& point : curve.points)
-      points.push_back({point.coordinate, point.mean, point.interval.low, point.interval.high, point.defined});
+      points.push_back({point.coordinate, point.over_tasks.mean, point.over_tasks.interval.low,
+                        point.over_tasks.interval.high, point.defined});
     json.push_back({{"metric", metric},
                     {"combination", curve.combination},
                     {"coordinate_unit", axis == axes.end() ? "" : axis->coordinate_unit},
@@ -295,7 +297,8 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["values"] = values_json(frame, curve_metrics(frame));
   json["summaries"] = summaries_json(frame.combinations, summaries, metrics.size());
   add_planners(json, frame, counts_failures);
-  json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
+  json["curves"] =
+      curves_json(frame, metric_curves(frame, layouts.summary.answer.people_progress), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
   json["graded"] = graded_json(run, layouts.summary);
   json["sanity_only"] = sanity_only(layouts.tested_worlds, run.manifest.experiment.scenarios, run.trials);

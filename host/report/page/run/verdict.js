@@ -70,6 +70,13 @@ export function lines(data) {
         t.missing === 1 ? 'is' : 'are'
       } missing: the run is incomplete.`
     );
+  const grown = ((data.run.manifest || {}).experiment || {}).grown_from || [];
+  if (grown.length > 0)
+    add(
+      'warning',
+      `Continued with more trials than it was begun with (${[...grown, data.run.repetitions].join(', then ')} of each ` +
+        'combination): intervals and p values hold for a number that was set before results were seen.'
+    );
   if (t.not_repeatable > 0)
     add(
       'warning',
