@@ -72,7 +72,6 @@ Json correlation_json(const ReportFrame& frame, const StratumCorrelation& one) {
           {"low", one.correlation.interval.low},
           {"high", one.correlation.interval.high},
           {"p", one.correlation.p},
-          {"exact", one.correlation.exact},
           {"ties_share", one.correlation.ties_share}};
 }
 
