@@ -14,8 +14,8 @@
 //   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp
 //   standstills_line  likewise
-//   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
-//                     ties_share}]
+//   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p,
+//                     ties_share}]; n: tasks
 //   completion        [{combination, robots, horizon_s, restricted_mean_s, low, high, arrived_share,
 //                     steps: [[t, share of robots that have arrived]]}]
 //   pedestrian_delay  [{combination, pairs, tasks, mean_s, low, high}]
