@@ -221,7 +221,7 @@ int run_command(const RunOptions& options) {
   }
   if (!options.bundle.empty()) bundle_run(files.directory(), options.bundle, false);
   const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
-                                  [](const TrialRecord& trial) { return !trial.faults.empty(); });
+                                  [](const TrialRecord& trial) { return has_fault(trial); });
   return faults ? exit_status::faults : exit_status::done;
 }
 

@@ -103,7 +103,7 @@ class SolvedTasks {
  public:
   SolvedTasks(const TableSpec& spec, std::span<const TrialRecord> trials, const std::string& planned) : spec_(spec) {
     for (const TrialRecord& trial : trials) {
-      if (trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+      if (trial.robots == 0 || !has_result(trial)) continue;
       planners_[row_of(trial)].insert(trial.global_planner);
       if (system_value(trial, planned)) solved_.insert({task_of(trial), trial.global_planner});
     }
@@ -201,7 +201,7 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
   std::vector<CombinationLabels> columns;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].robots == 0 || trials[i].outcome == trial_outcome::skipped) continue;
+    if (trials[i].robots == 0 || !has_result(trials[i])) continue;
     const CombinationLabels labels = combination_of(trials[i]);
     std::vector<std::size_t>& cell =
         cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}];

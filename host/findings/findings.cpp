@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
@@ -56,10 +57,13 @@ Tasks tasks_of(std::span<const TrialRecord> trials) {
     knows.resize(world_of.size());
     if (!trial.task.empty()) knows[repetition_of.back()] = true;
   }
+  std::vector<std::set<std::string>> known(worlds.size());  // tasks, by world
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (!trials[i].task.empty()) known[world_of[repetition_of[i]]].insert(trials[i].task);
   Joined joined(world_of.size());
   std::map<InWorld, std::size_t> first_with;  // the first repetition that has a task
   for (std::size_t i = 0; i < trials.size(); ++i)
-    if (!trials[i].task.empty() || !knows[repetition_of[i]])
+    if (known[world_of[repetition_of[i]]].size() != 1 && (!trials[i].task.empty() || !knows[repetition_of[i]]))
       joined.join(repetition_of[i],
                   first_with.try_emplace({world_of[repetition_of[i]], trials[i].task}, repetition_of[i]).first->second);
 
@@ -91,7 +95,7 @@ Findings make_findings(std::span<const TrialRecord> trials, const Tasks& tasks, 
   std::map<CombinationLabels, std::size_t> entries;
   std::map<std::pair<CombinationLabels, std::uint64_t>, std::size_t> situations;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].outcome == trial_outcome::skipped) continue;
+    if (!has_result(trials[i])) continue;
     const std::optional<Split> labels = split(i);
     if (!labels) continue;
     const std::size_t entry = index_of(entries, labels->entry);

@@ -32,6 +32,7 @@ CombinationLabels combination_of(const TrialRecord& trial);
 
 // The task of each trial: the robots' starts and goals in a world. All crowds that meet it, and in one repetition all
 // numbers of robots and all swept values of the world, are parts of it. Where no trial knows its task, a world is one.
+// In a world with a single task each crowd that meets it is an observation of its own: what is found holds for this task.
 struct Tasks {
   std::vector<std::size_t> of_trial;
   std::vector<std::uint32_t> world_of;  // of each task, from 0

@@ -60,6 +60,7 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
       summaries.push_back({labels, 0, {}, trial.swept});
       groups.emplace_back();
     }
+    if (!has_result(trial)) continue;
     ++summaries[index].trials;
     groups[index].push_back(i);
   }

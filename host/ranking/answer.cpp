@@ -187,8 +187,7 @@ std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricC
   std::vector<CombinationLabels> cells;
   for (const TrialRecord& trial : trials)
     if (const auto split = by_planner_and_controller(trial);
-        split && trial.outcome != trial_outcome::skipped &&
-        std::find(cells.begin(), cells.end(), split->cell) == cells.end())
+        split && has_result(trial) && std::find(cells.begin(), cells.end(), split->cell) == cells.end())
       cells.push_back(split->cell);
   const auto answer_of = [&](const std::function<bool(const CombinationLabels&)>& included) -> std::optional<Answer> {
     Contest contest(measures, tasks, make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {

@@ -63,7 +63,7 @@ void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const
 std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
   std::vector<CombinationFailures> failures;
   for (const TrialRecord& trial : trials) {
-    if (trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+    if (trial.robots == 0 || !has_result(trial)) continue;
     const CombinationLabels labels = combination_of(trial);
     auto found = std::find_if(failures.begin(), failures.end(),
                               [&](const CombinationFailures& one) { return one.combination == labels; });

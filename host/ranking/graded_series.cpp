@@ -98,7 +98,7 @@ std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<c
     std::vector<Collected> collected;
     for (const TrialRecord& trial : trials) {
       const auto level = std::find(series.scenarios.begin(), series.scenarios.end(), trial.scenario);
-      if (level == series.scenarios.end() || trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+      if (level == series.scenarios.end() || trial.robots == 0 || !has_result(trial)) continue;
       take(trial, static_cast<std::size_t>(level - series.scenarios.begin()), share,
            collected_for(collected, trial, series));
     }

@@ -137,4 +137,13 @@ inline std::optional<double> system_value(const TrialRecord& trial, std::string_
   return std::nullopt;
 }
 
+// Whether its values count: it was run, and was for all its plugins.
+inline bool has_result(const TrialRecord& trial) {
+  return trial.outcome != trial_outcome::skipped && trial.outcome != trial_outcome::unsupported;
+}
+
+inline bool has_fault(const TrialRecord& trial) {
+  return !trial.faults.empty() && trial.outcome != trial_outcome::unsupported;
+}
+
 }  // namespace dmrp::host

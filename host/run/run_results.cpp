@@ -121,8 +121,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
 void print_results_as_json(const RunResults& results, const SummaryLayout& layout, const fs::path& directory) {
   using Json = nlohmann::ordered_json;
   Json json = {{"run_directory", fs::absolute(directory).string()}};
-  for (const char* outcome :
-       {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault, trial_outcome::skipped})
+  for (const char* outcome : {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault,
+                              trial_outcome::skipped, trial_outcome::unsupported})
     json["trials"][outcome] = std::count_if(results.trials.begin(), results.trials.end(),
                                             [&](const TrialRecord& trial) { return trial.outcome == outcome; });
   json["answer"] = Json::array();

@@ -52,7 +52,7 @@ std::vector<ArrivalTimes> arrival_times(const ReportFrame& frame, const Experime
     std::vector<std::size_t> trials;
     std::vector<core::TimeToEvent> robots;
     for (std::size_t trial = 0; trial < frame.trials.size(); ++trial) {
-      if (frame.combination_of[trial] != i || frame.trials[trial].outcome == trial_outcome::skipped) continue;
+      if (frame.combination_of[trial] != i || !has_result(frame.trials[trial])) continue;
       trials.push_back(trial);
       by_trial[trial] = robots_of(frame.trials[trial], layout.completion, horizon_s);
       robots.insert(robots.end(), by_trial[trial].begin(), by_trial[trial].end());

@@ -15,7 +15,7 @@ struct Stratum {
 std::vector<Stratum> strata_of(const ReportFrame& frame) {
   std::vector<Stratum> strata;
   for (std::size_t trial = 0; trial < frame.trials.size(); ++trial) {
-    if (frame.trials[trial].outcome == trial_outcome::skipped || frame.trials[trial].robots == 0) continue;
+    if (!has_result(frame.trials[trial]) || frame.trials[trial].robots == 0) continue;
     CombinationLabels labels = frame.combinations[frame.combination_of[trial]];
     labels.local_controller.clear();
     const auto found =

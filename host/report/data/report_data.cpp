@@ -201,7 +201,8 @@ Json timing_json(std::span<const TrialRecord> trials) {
 
 Json faults_json(std::span<const TrialRecord> trials) {
   Json json = Json::array();
-  for (const TrialRecord& trial : trials)
+  for (const TrialRecord& trial : trials) {
+    if (!has_fault(trial)) continue;
     for (const FaultRecord& fault : trial.faults)
       json.push_back({{"trial", trial.id},
                       {"kind", fault.kind},
@@ -212,6 +213,7 @@ Json faults_json(std::span<const TrialRecord> trials) {
                       {"signal", fault.signal == 0 ? Json() : Json(fault.signal)},
                       {"detail", fault.detail},
                       {"rerun", fault.rerun}});
+  }
   return json;
 }
 

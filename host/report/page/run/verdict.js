@@ -19,6 +19,7 @@ export function tally(data) {
     missing: Math.max(0, run.trials_planned - ran.length),
     fault_trials: new Set(data.faults.map((fault) => fault.trial)).size,
     faults: data.faults.length,
+    unsupported: ran.filter((i) => trials.outcome[i] === 'unsupported').length,
     failed_trials: ran.filter((i) => trials.outcome[i] === 'failed').length,
     not_repeatable: ran.filter((i) => !trials.repeatable[i]).length,
     robots: sum(known(arrived).map(robots)),
@@ -95,6 +96,8 @@ export function lines(data) {
       )}${causes_words(data)}.`,
       'failures'
     );
+  if (t.unsupported > 0)
+    add('note', `${numbers.counted(t.unsupported, 'trial')} left out: a plugin says that they are not for it.`);
   if (data.standstills_line) add('note', `${data.standstills_line}.`);
   if (found.length === 0) add('good', all_well(t));
   else if (t.ran > 0 && found.every((line) => line.kind === 'note'))

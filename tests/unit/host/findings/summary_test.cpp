@@ -67,6 +67,17 @@ TEST_CASE("five tasks under five seeds each are five observations", "[results]")
   }
 }
 
+TEST_CASE("crowds that meet the only task of a world are observations", "[results]") {
+  std::vector<TrialRecord> trials;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    trials.push_back(example_trial(i, "A", i, 40.0, 0.5));
+    trials.back().task = "listed";
+  }
+  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 20);
+  trials.back().task = "another";  // now tasks are, with their crowds
+  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 2);
+}
+
 TEST_CASE("failed trials count in metrics that count failures", "[results]") {
   std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, std::nullopt, 0.5),
                                   example_trial(2, "A", 2, 44.0, 0.5)};
