@@ -24,13 +24,13 @@ query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE
   metric = 'success' AND subject_kind = 'system'"
 expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 
-# three crowds on one task are one observation: no p
+# three crowds on one task are three observations: no p
 expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 3 --out "$scratch/few"
 cp -r "$scratch/few" "$scratch/changed"
 forge "$scratch/changed" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
 expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric success
-grep -Eq "success +12 +1 .* 0.100 .* –$" "$scratch/stdout" ||
-  fail "one task has a p: $(cat "$scratch/stdout")"
+grep -Eq "success +12 +3 .* 0.100 .* –$" "$scratch/stdout" ||
+  fail "three observations have a p: $(cat "$scratch/stdout")"
 
 refused() {
   expect_status 2 "$host" compare "${@:2}"
