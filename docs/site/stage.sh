@@ -64,6 +64,19 @@ for family in planners controllers pedestrians metrics; do
   } >"$pages/reference/$family.md"
 done
 {
+  echo "# The constants of the contract"
+  echo
+  echo "Written from \`share/dmrp/abi/dmrp-abi.json\`."
+  sqlite3 -batch -separator $'\t' :memory: "SELECT json_extract(value, '\$.header'),
+      replace(json_extract(value, '\$.group'), char(10), ' '), key, json_extract(value, '\$.value'),
+      json_extract(value, '\$.since'), replace(json_extract(value, '\$.comment'), char(10), ' ')
+    FROM json_each(readfile('$(dirname "$host")/../share/dmrp/abi/dmrp-abi.json'), '\$.constants');" |
+    awk -F '\t' '{ gsub(/\|/, "\\|") }
+      $1 != header { print "\n## `" $1 "`"; header = $1; group = "" }
+      $2 != group || FNR == 1 { print "\n" $2 "\n\n| constant | value | since | |\n| --- | --- | --- | --- |"; group = $2 }
+      { print "| `" $3 "` | `" $4 "` | 1." $5 " | " ($6 == $2 ? "" : $6) " |" }'
+} >"$pages/reference/contract.md"
+{
   echo "# Commands"
   echo
   echo "What \`dmrp-host COMMAND --help\` prints."

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Every header of the SDK compiles alone, and twice in a row, in the languages that it promises, by gcc and clang,
-# without a warning. The C headers also have no padding that the compiler put in, declare everything as extern "C", and
-# have at most 150 lines. Called as: headers.sh INCLUDE_DIR
+# without a warning, and the templates of EXAMPLES_DIR compile. The C headers also have no padding that the compiler put
+# in, declare everything as extern "C", and have at most 150 lines, without what later minor versions append.
+# Called as: headers.sh INCLUDE_DIR EXAMPLES_DIR
 set -uo pipefail
-include=$(realpath "$1")
+include=$(realpath "$1") examples=$(realpath "$2")
 
-# compile COMPILER STANDARD HEADER...: prints what went wrong
+# compile COMPILER STANDARD SOURCE|HEADER...: prints what went wrong
 compile() {
-  local compiler=$1 standard=$2 language=c extra=""
-  [[ $standard == *++* ]] && language=c++
-  [[ $standard == c11 ]] && extra=-Wpadded
-  printf '#include <dmrp/%s>\n' "${@:3}" "${@:3}" |
-    "$compiler" -x "$language" -std="$standard" -pedantic -Wall -Wextra -Werror $extra -I "$include" -fsyntax-only - ||
-    echo "FAILED: ${*:3} as $standard by $compiler"
+  local compiler=$1 standard=$2 flags=(-x c)
+  [[ $standard == *++* ]] && flags=(-x c++)
+  [[ $standard == c11 && $3 == *.h ]] && flags+=(-Wpadded)
+  flags+=(-std="$standard" -pedantic -Wall -Wextra -Wconversion -Werror -I "$include" -fsyntax-only)
+  if [[ $3 == /* ]]; then cat "$3"; else printf '#include <dmrp/%s>\n' "${@:3}" "${@:3}"; fi |
+    "$compiler" "${flags[@]}" - || echo "FAILED: ${*:3} as $standard by $compiler"
 }
 export -f compile
 export include
@@ -38,7 +39,7 @@ mapfile -t cpp_headers < <(find . -name '*.hpp' -printf '%P\n' | sort)
 check_texts() {
   local header lines
   for header in "${c_headers[@]}"; do
-    lines=$(wc -l <"$header")
+    lines=$(awk '/^#if DMRP_TARGET_MINOR/, /^#endif/ { next } { ++count } END { print count }' "$header")
     ((lines <= 150)) || echo "FAILED: $header has $lines lines"
     ! grep -qE '^(typedef|struct|enum|extern|union) ' "$header" || grep -q '^extern "C" {$' "$header" ||
       echo "FAILED: $header declares without extern \"C\""
@@ -47,17 +48,21 @@ check_texts() {
 problems=$(check_texts)
 [[ -z $problems ]] || { echo "$problems"; exit 1; }
 
-# The C headers by the first and the last standards and by C11, which finds padding. The C++ headers take longer: one by
-# one in C++17 by the first compiler, all at once elsewhere.
+# The C headers one by one by the first and the last standards and by C11, which finds padding. The C++ headers take
+# longer: one by one in C++17 by the first compiler, all at once elsewhere. Each compiler compiles the templates once.
 list_compilations() {
   local compiler standard
   for compiler in "${compilers[@]}"; do
     for standard in c99 c11 c++11 c++20; do printf "$compiler $standard %s\n" "${c_headers[@]}"; done
+    for standard in c17 c++14 c++17; do echo "$compiler $standard ${c_headers[*]}"; done
     for standard in c++17 c++20; do echo "$compiler $standard ${cpp_headers[*]}"; done
+    for standard in c99 c11 c17; do echo "$compiler $standard $examples/other_languages/planner.c"; done
   done
-  printf "${compilers[0]} c++17 %s\n" "${cpp_headers[@]}"
+  printf "${compilers[0]} c++17 %s\n" "${cpp_headers[@]}" "$examples"/templates/*/my_plugin.cpp
+  printf "${compilers[-1]} c++20 %s\n" "$examples"/templates/*/my_plugin.cpp
 }
 problems=$(list_compilations | xargs -P 2 -L 1 bash -c 'compile "$@"' _ 2>&1)
 [[ -z $problems ]] || { echo "$problems"; exit 1; }
-echo "$(list_compilations | wc -l) compilations of ${#c_headers[@]} C and ${#cpp_headers[@]} C++ headers by ${compilers[*]}"
+count=$(list_compilations | wc -l)
+echo "$count compilations of ${#c_headers[@]} C and ${#cpp_headers[@]} C++ headers and the templates by ${compilers[*]}"
 ((skipped == 0)) || exit 77

@@ -17,6 +17,7 @@ type != "" && /^}/ {
   type = ""
   next
 }
+type != "" && /^#/ { next }  # around fields of a later minor version
 type != "" {
   sub(/\/\/.*/, "")
   declaration = declaration " " $0

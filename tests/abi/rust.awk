@@ -1,6 +1,24 @@
 # SPDX-License-Identifier: MIT
-# Prints v1.txt as Rust: every struct, every constant, and the headers' macros. With -v check=1 it prints a program
-# that compares size and offset of each with those written down.
+# Prints dmrp-abi.json as Rust: every struct, every constant, and the headers' macros. With -v check=1 it prints a
+# program that compares size and offset of each with those written down. json.awk writes a field or a constant a line.
+
+# The value of a key in a line: a number, or a text with its escapes.
+function member(key, line) {
+  if (!match(line, "\"" key "\": ")) return ""
+  line = substr(line, RSTART + RLENGTH)
+  if (line !~ /^"/) {
+    sub(/[,}].*/, "", line)
+    return line
+  }
+  match(line, /^"([^"\\]|\\.)*"/)
+  return substr(line, 2, RLENGTH - 2)
+}
+function documented(indent, line,   comment) {
+  comment = member("comment", line)
+  gsub(/\\n/, "\n" indent "/// ", comment)
+  gsub(/\\"/, "\"", comment)
+  return comment == "" ? "" : indent "/// " comment "\n"
+}
 function rust_type(type) {
   if (type in plain) return plain[type]
   if (type ~ /\* const\*$/) return "*const " rust_type(substr(type, 1, length(type) - 7))
@@ -8,22 +26,14 @@ function rust_type(type) {
   if (type ~ /\*$/) return "*mut " rust_type(substr(type, 1, length(type) - 1))
   return type
 }
-function name_of(declaration) {
-  match(declaration, /[A-Za-z0-9_]+$/)
-  return substr(declaration, RSTART, RLENGTH)
-}
-function type_of(declaration) {
-  match(declaration, /[A-Za-z0-9_]+$/)
-  return rust_type(substr(declaration, 1, RSTART - 2))
-}
 function escaped(name) { return name == "type" ? "r#type" : name == "self" ? "self_" : name }
-function function_type(declaration,   returns, count, parts, i, out) {
-  match(declaration, /\(\*[a-z0-9_]+\)/)
-  returns = substr(declaration, 1, RSTART - 2)
-  declaration = substr(declaration, RSTART + RLENGTH + 1)
-  sub(/\)$/, "", declaration)
-  count = declaration == "void" ? 0 : split(declaration, parts, /, /)
-  for (i = 1; i <= count; ++i) out = out (i > 1 ? ", " : "") escaped(name_of(parts[i])) ": " type_of(parts[i])
+function function_type(line,   returns, count, parts, i, out) {
+  returns = member("returns", line)
+  match(line, /"arguments": \[[^\]]*\]/)
+  line = substr(line, RSTART, RLENGTH)
+  count = split(line, parts, /\}/) - 1
+  for (i = 1; i <= count; ++i)
+    out = out (i > 1 ? ", " : "") escaped(member("name", parts[i])) ": " rust_type(member("type", parts[i]))
   return "Option<unsafe extern \"C\" fn(" out ")" (returns == "void" ? "" : " -> " rust_type(returns)) ">"
 }
 BEGIN {
@@ -33,7 +43,7 @@ BEGIN {
     print "mod dmrp;\nuse std::mem::{size_of, MaybeUninit};\nuse std::ptr::addr_of;\nfn main() {"
   } else {
     print "// SPDX-License-Identifier: MIT"
-    print "// The plugin contract of dmrp, written from its C headers. What each thing means stands there."
+    print "// The plugin contract of dmrp, written from its C headers."
     print "#![allow(non_camel_case_types, dead_code, unused_macros, unused_imports)]"
     print "use std::os::raw::{c_char, c_void};\n"
     print "/// Element `index` of an array with the owner's stride."
@@ -55,37 +65,32 @@ BEGIN {
     printf "#[repr(C)]\npub struct dmrp_instance {\n    _opaque: [u8; 0],\n"
   }
 }
-/^#/ || /^$/ { next }
-/^[a-z]/ {
-  type = $1
+/^    \{"name": .*"fields": \[/ {
+  type = member("name", $0)
   if (check)
-    print "    assert_eq!(size_of::<dmrp::" type ">(), " $2 ");\n    let one = MaybeUninit::<dmrp::" type ">::uninit();\n" \
-          "    let start = one.as_ptr() as usize;"
+    print "    assert_eq!(size_of::<dmrp::" type ">(), " member("size", $0) ");"
   else
-    print "}\n\n#[repr(C)]\n#[derive(Clone, Copy)]\npub struct " type " {"
+    print "}\n\n" documented("", $0) "#[repr(C)]\n#[derive(Clone, Copy)]\npub struct " type " {"
   next
 }
-/^ / {
-  offset = $1
-  sub(/^ +[0-9]+ [0-9]+ /, "")
-  is_function = match($0, /\(\*[a-z0-9_]+\)/)
-  name = escaped(is_function ? substr($0, RSTART + 2, RLENGTH - 3) : name_of($0))
-  if (check)
-    print "    assert_eq!(unsafe { addr_of!((*one.as_ptr())." name ") } as usize - start, " offset ");"
-  else
-    print "    pub " name ": " (is_function ? function_type($0) : type_of($0)) ","
-  next
-}
-/ = / && !check {
-  value = substr($0, index($0, " = ") + 3)
-  kind = "i32"
-  if (value ~ /^"/) {
-    kind = "&[u8]"
-    value = "b" substr(value, 1, length(value) - 1) "\\0\""
-  } else if (sub(/u$/, "", value)) {
-    kind = "u32"
+/^      \{"offset": / {
+  name = escaped(member("name", $0))
+  if (check) {
+    print "    let one = MaybeUninit::<dmrp::" type ">::uninit();"
+    print "    let start = one.as_ptr() as usize;"
+    print "    assert_eq!(unsafe { addr_of!((*one.as_ptr())." name ") } as usize - start, " member("offset", $0) ");"
+  } else {
+    printf "%s", documented("    ", $0)
+    print "    pub " name ": " (member("type", $0) == "function" ? function_type($0) : rust_type(member("type", $0))) ","
   }
-  gsub(/[()]/, "", value)
-  constants = constants "pub const " $1 ": " kind " = " value ";\n"
+  next
+}
+/^    "DMRP_[A-Z0-9_]*": / && !check {
+  split($0, quoted, "\"")
+  type = member("type", $0)
+  value = member("value", $0)
+  if (type == "text") value = "b\"" value "\\0\""
+  constants = constants documented("", $0) "pub const " quoted[2] ": " \
+              (type == "text" ? "&[u8]" : rust_type(type)) " = " value ";\n"
 }
 END { printf "}\n%s", check ? "" : "\n" constants }

@@ -10,7 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 
 if [[ ${3:-} != build ]]; then
   "$source_dir/docs/site/stage.sh" "$source_dir" "$host" "$scratch/pages"
-  for page in docs/guides/write_a_planner.md reference/experiment.md reference/commands.md reference/planners.md; do
+  for page in docs/guides/write_a_planner.md reference/experiment.md reference/commands.md reference/planners.md reference/contract.md; do
     [[ -s $scratch/pages/$page ]] || { echo "FAILED: no $page" && exit 1; }
   done
   # a guide that shows a function which is gone cannot be gathered

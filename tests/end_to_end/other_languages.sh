@@ -28,17 +28,33 @@ rows() {
 }
 fields="SELECT json_extract(s.value, '\$.name'), json_extract(f.value, '\$.offset'), json_extract(f.value, '\$.size')
   FROM document, json_each(text, '\$.structs') s, json_each(s.value, '\$.fields') f"
-[[ $(rows "$fields;") == "$(awk '/^dmrp/ { type = $1 } /^ / { print type, $1, $2 }' "$abi/v1.txt")" ]] ||
+recorded=$(awk '/^dmrp/ { type = $1 } /^ / { print type, $1, $2 }' "$abi/v1.txt")
+[[ $(rows "$fields;" | sort) == "$(sort <<<"$recorded")" ]] ||
   fail "dmrp-abi.json has other fields than v1.txt"
 [[ $(rows "SELECT key FROM document, json_each(text, '\$.constants');") == "$(awk '/ = / { print $1 }' "$abi/v1.txt")" ]] ||
   fail "dmrp-abi.json has other constants than v1.txt"
-[[ $(rows "SELECT json_extract(text, '\$.constants.DMRP_EDGE_SE'), json_extract(text, '\$.constants.DMRP_NO_ROBOT'),
-  json_extract(text, '\$.constants.DMRP_EXT_LIDAR') FROM document;") == "128 -1 dmrp.lidar/1" ]] ||
+[[ $(rows "SELECT json_extract(text, '\$.constants.DMRP_EDGE_SE.value'), json_extract(text, '\$.constants.DMRP_NO_ROBOT.value'),
+  json_extract(text, '\$.constants.DMRP_EXT_LIDAR.value') FROM document;") == "128 -1 dmrp.lidar/1" ]] ||
   fail "dmrp-abi.json has other values than the headers"
+# What a field points to, or is, stands before its struct: a generator reads once.
+late=$(rows "SELECT s.key, json_extract(s.value, '\$.name'), json_extract(f.value, '\$.type') ||
+    coalesce(json_extract(f.value, '\$.returns') || json_extract(f.value, '\$.arguments'), '')
+  FROM document, json_each(text, '\$.structs') s, json_each(s.value, '\$.fields') f;" |
+  awk '{ place[$2] = $1; rest = $0; sub(/^[^ ]+ [^ ]+ /, "", rest)
+         while (match(rest, /dmrp_[a-z0-9_]+/)) {
+           name = substr(rest, RSTART, RLENGTH); rest = substr(rest, RSTART + RLENGTH)
+           if (name != "dmrp_instance" && !(name in place)) print name, "after", $2
+         } }')
+[[ -z $late ]] || fail "dmrp-abi.json has a struct after one that needs it: $late"
+[[ $(rows "SELECT json_extract(s.value, '\$.kind'), json_extract(f.value, '\$.thread'),
+    json_extract(f.value, '\$.since'), json_extract(f.value, '\$.comment')
+  FROM document, json_each(text, '\$.structs') s, json_each(s.value, '\$.fields') f
+  WHERE json_extract(s.value, '\$.name') = 'dmrp_entry' AND json_extract(f.value, '\$.name') = 'deinit';") == \
+  "growable main 0 Called once, when no instance is left." ]] || fail "dmrp-abi.json does not say what deinit() is"
 
 command -v rustc >/dev/null || { echo "skipped: no rustc" && exit 77; }
 cp "$shared/dmrp.rs" "$sources/planner.rs" .
-awk -v check=1 -f "$abi/rust.awk" "$abi/v1.txt" >layout.rs
+awk -v check=1 -f "$abi/rust.awk" "$shared/dmrp-abi.json" >layout.rs
 expect_status 0 rustc --edition 2021 -D warnings layout.rs
 expect_status 0 ./layout
 expect_status 0 rustc --edition 2021 -O -D warnings --crate-type cdylib planner.rs -o librust.so

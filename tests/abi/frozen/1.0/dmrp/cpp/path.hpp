@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// cpp/path.hpp: a path as a span of waypoints, and what is said of it; the contract is in ../path.h.
+#pragma once
+
+#include "../path.h"
+#include "span.hpp"
+
+namespace dmrp {
+
+using Waypoint = dmrp_waypoint;
+
+// Valid as long as the waypoints of the dmrp_path.
+class Path : public Span<Waypoint> {
+ public:
+  explicit Path(const dmrp_path& c, std::uint32_t update_flags = 0)
+      : Span(c.waypoints, c.count, c.stride), flags_(c.flags), update_flags_(update_flags) {}
+
+  // It ends before the goal that it leads to.
+  bool is_partial() const { return (flags_ & DMRP_PATH_PARTIAL) != 0; }
+
+  // In set_path(): it begins as the path before and ends elsewhere.
+  bool continues() const { return (update_flags_ & DMRP_PATH_CONTINUES) != 0; }
+
+ private:
+  std::uint32_t flags_;
+  std::uint32_t update_flags_;
+};
+
+}  // namespace dmrp

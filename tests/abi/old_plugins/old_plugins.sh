@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Plugins that are built from the frozen headers answer on this host as they did when the contract was frozen, and so do
+# the same sources with today's headers, by which they compile without a warning. Each plugin mixes every field that it
+# is handed into what it answers. The stage is that of `dmrp-host check`; frozen/answers.txt changes only with the stage
+# or with what is frozen. Called as: old_plugins.sh ANSWERS INCLUDE_DIR C_COMPILER CXX_COMPILER [--record]
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+answers=$1 include=$(realpath "$2") c=$3 cxx=$4
+frozen=$here/../frozen/1.0 recorded=$here/../frozen/answers.txt
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# answers_with INCLUDE_DIR FLAG...: of the libraries built with these headers
+answers_with() {
+  local flags=(-pedantic -Wall -Wextra -Werror -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I "$here/../../.." -I "$@")
+  "$c" -std=c99 "${flags[@]}" "$here/controller.c" -lm -o "$scratch/libcontroller.so"
+  "$cxx" -std=c++17 "${flags[@]}" "$here/plugins.cpp" -o "$scratch/libplugins.so"
+  "$answers" "$scratch/libcontroller.so" && "$answers" "$scratch/libplugins.so"
+}
+# expect WHAT: that the answers on standard input are the recorded ones
+expect() {
+  diff "$recorded" - >"$scratch/difference" || {
+    echo "FAILED: $1 answer otherwise than recorded (<):"
+    head -20 "$scratch/difference"
+    exit 1
+  }
+}
+if [[ ${5:-} == --record ]]; then
+  answers_with "$frozen" >"$recorded"
+  exit
+fi
+
+# a field at another place does not go unnoticed
+cp -r "$frozen" "$scratch/moved"
+sed -i 's/double v_min;/double swapped;/; s/double v_max;/double v_min;/; s/double swapped;/double v_max;/' \
+  "$scratch/moved/dmrp/robot.h"
+answers_with "$scratch/moved" >"$scratch/moved.txt"
+! cmp -s "$recorded" "$scratch/moved.txt" || { echo "FAILED: a plugin does not notice where a field is" && exit 1; }
+
+answers_with "$frozen" | expect "plugins built from the frozen headers"
+answers_with "$include" | expect "plugins built from today's headers"
+echo "$(grep -c '^[a-z]' "$recorded") plugins answer as recorded"
