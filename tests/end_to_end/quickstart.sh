@@ -10,7 +10,7 @@ grep -q "$scratch/run" "$scratch/stdout" || fail "the run directory is not named
 
 # But for measured times, the progress, which is a bar on a terminal, and the name of the run directory.
 lasting() {
-  sed -E '1s/ trials .*/ trials/; /^  [0-9]+\/[0-9]+  /d; s/^(  CBS \+ DWA( +[0-9.]+){3} +)[0-9.]+/\1-/
+  sed -E '1s/ trials .*/ trials/; /^  [0-9]+\/[0-9]+  /d; s/^(  CBS \+ DWA +[0-9.]+ \[[^]]*\]( +[0-9.]+){2} +)[0-9.]+/\1-/
     s/^  [^ ]+( +report.html)/  -\1/'
 }
 shown=$(sed -n '/^quickstart · /,/^```/p' "$source_dir/README.md" | grep -v '^```')
