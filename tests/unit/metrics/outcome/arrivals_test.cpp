@@ -147,8 +147,7 @@ TEST_CASE("after a standstill that runs on, it counts which of its robots arrive
   trial.plan(std::vector<Points>(3, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(3, at(0, 0)));
   const bool runs_on = GENERATE(true, false);
   if (runs_on)
-    trial.events(
-        {{DMRP_ROBOT_EVENT_RUNS_ON, 0, 0, 0, DMRP_NOBODY}, {DMRP_ROBOT_EVENT_RUNS_ON, 2, 0, 0, DMRP_NOBODY}});
+    trial.events({{DMRP_ROBOT_EVENT_RUNS_ON, 0, 0, 0, DMRP_NOBODY}, {DMRP_ROBOT_EVENT_RUNS_ON, 2, 0, 0, DMRP_NOBODY}});
   trial.end(40.0, {never, 10.0, 35.0});
   const Measurement m = measure("dmrp.metric.first_cause", trial);
   CHECK(std::isnan(m.robot("after_standstill", 1)));
