@@ -193,7 +193,7 @@ class Run {
 
   // The robots' states, and what their controllers were handed and answered since the last sample.
   void note_robots() {
-    constexpr dmrp_twist nothing = {std::nan(""), std::nan(""), std::nan("")};
+    const dmrp_twist nothing = {std::nan(""), std::nan(""), std::nan("")};
     robots_.clear();
     for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];
