@@ -168,6 +168,9 @@ void Referee::gain(std::uint32_t robot, const CoursePlace& course) {
   const double detour_m = std::clamp(advance_m - approach_m, 0.0, it.credit_m.value_or(0.0));
   if (it.credit_m) *it.credit_m -= detour_m;
   gained_m_[robot] += approach_m + detour_m;
+  if (gained_m_[robot] - it.counted_m < least_progress_m) return;
+  it.counted_m = gained_m_[robot];
+  it.gained_ns = world_.t_ns();
 }
 
 // The oldest moment kept is the latest that is a whole window old.
@@ -240,6 +243,10 @@ void Referee::watch_standstill(std::span<const CoursePlace> courses) {
     still = still && stands && !it.recovering && !courses[i].path.empty();
   }
   if (!still || settings_.replans) still_since_ns_ = world_.t_ns();
+  if (!continues_ || runs_on_ || world_.t_ns() - still_since_ns_ < fixed_point_ns) return;
+  runs_on_ = true;
+  for (std::uint32_t i = 0; i < robots_.size(); ++i)
+    if (is_active(i)) changes_.push_back({DMRP_ROBOT_EVENT_RUNS_ON, i, world_.t_ns(), 0, DMRP_NOBODY});
 }
 
 // Whether somebody near an active robot has moved by least_progress_m since they last did, or will go on as recorded.

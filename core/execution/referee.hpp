@@ -92,7 +92,11 @@ class Referee {
   std::span<const double> gained_m() const { return gained_m_; }
   std::uint32_t class_of(std::uint32_t robot) const { return robots_[robot].verdict.kind; }
 
-  // Changes of class since the last call, the first of all robots, as events of the trace (dmrp/robot_event.h).
+  // Since when the robot has gained less than least_progress_m.
+  std::int64_t waits_since_ns(std::uint32_t robot) const { return robots_[robot].gained_ns; }
+
+  // What there is to tell since the last call, as events of the trace (dmrp/robot_event.h): changes of class, first the
+  // class of every active robot; and that a standstill runs on.
   std::vector<dmrp_robot_event> take_changes() { return std::exchange(changes_, {}); }
 
   // The outcome of every robot at the end of the trial.
@@ -117,7 +121,9 @@ class Referee {
     std::optional<double> credit_m;            // unset until a course leads to the goal
     std::uint64_t course = 0;                  // of arc_m
     double arc_m = 0.0;
-    std::deque<Moment> window;  // up to the latest moment that is a whole window old
+    double counted_m = 0.0;      // of gained_m_, at gained_ns
+    std::int64_t gained_ns = 0;  // when it had last gained least_progress_m more
+    std::deque<Moment> window;   // up to the latest moment that is a whole window old
     double travelled_m = 0.0;
     double turned_rad = 0.0;
     dmrp_pose pose{};  // at the last control tick
@@ -155,6 +161,7 @@ class Referee {
   std::map<std::uint64_t, dmrp_vec2> people_;  // where each was when it last moved least_progress_m, by id
   std::int64_t still_since_ns_ = 0;
   bool continues_ = false;  // at a fixed point too
+  bool runs_on_ = false;    // since a fixed point
 };
 
 }  // namespace dmrp::core

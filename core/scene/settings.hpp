@@ -3,8 +3,8 @@
 // The defaults are those of the benchmark's method.
 #pragma once
 
-#include <dmrp/robot_event.h>
 #include <dmrp/robot.h>
+#include <dmrp/robot_event.h>
 
 #include <array>
 #include <cstdint>
@@ -80,12 +80,15 @@ struct GoalSettings {
   double settle_s = 0.5;
 };
 
-// The reasons for a new plan; 0 switches a reason off.
+// The reasons for a new plan, 0 switches a reason off; and what is asked of the planner.
 struct ReplanSettings {
   std::int64_t period_ns = 0;                    // time since the last call of the planner
+  std::int64_t period_steps = 0;                 // the same in steps of the plan
   double stray_m = 0.0;                          // an active robot is farther than this from its place on its path
   std::int64_t stall_ns = 0;                     // an active robot gained less than least_progress_m in this time
   std::int64_t min_interval_ns = 2'000'000'000;  // between a call of the planner and one for straying or stalling
+  std::uint32_t window_steps = 0;                // plans are for so many steps; 0: for the whole way
+  std::string fallback;                          // id of the planner that is asked where the other has no plan; or ""
 };
 
 // A step of the recovery ladder.

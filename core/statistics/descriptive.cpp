@@ -2,6 +2,7 @@
 #include "core/statistics/descriptive.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -35,6 +36,12 @@ double median(std::span<const double> values) {
   std::vector<double> ascending(values.begin(), values.end());
   std::sort(ascending.begin(), ascending.end());
   return quantile_of_sorted(ascending, 0.5);
+}
+
+double student_quantile(std::size_t n, double probability) {
+  assert(n >= 2 && probability > 0.0 && probability < 1.0);
+  const boost::math::students_t distribution(static_cast<double>(n - 1));
+  return boost::math::quantile(boost::math::complement(distribution, probability));
 }
 
 double quantile_of_sorted(std::span<const double> ascending, double p) {

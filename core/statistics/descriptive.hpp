@@ -2,6 +2,7 @@
 // descriptive.hpp: descriptive statistics for the summaries of a run.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -12,9 +13,21 @@ namespace dmrp::core {
 // The statistic of too few values.
 inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
+// Of tests and, as 1 - 0.05, of intervals.
+inline constexpr double significance = 0.05;
+
+// Between two ends; undefined at both where there is none.
+struct Interval {
+  double low = undefined;
+  double high = undefined;
+};
+
 double mean(std::span<const double> values);       // undefined without one
 double sample_sd(std::span<const double> values);  // with n - 1; needs two values
 double median(std::span<const double> values);     // needs one value; the mean of the middle two of an even number
+
+// Student's t for the mean of n >= 2 normal values: exceeded with this probability.
+double student_quantile(std::size_t n, double probability);
 
 // The p-quantile of ascending values, with linear interpolation (Hyndman and Fan's type 7).
 double quantile_of_sorted(std::span<const double> ascending, double p);

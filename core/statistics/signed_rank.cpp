@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t most_exact_pairs = 100;
 constexpr double tied_within = 1e-9;  // of the largest difference
-constexpr double significance = 0.05;
 
 // The probability of each sum of positive ranks if all signs are equally likely.
 std::vector<double> signed_rank_distribution(std::span<const std::int64_t> ranks) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 
 namespace dmrp::core {
 

@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace dmrp::core {
 namespace {
 
 constexpr double half = 0.5;
+constexpr double of_rounding = 1e-12;  // of means
 
 // On the scale of positions in the list of levels: i between levels i and i + 1; -1 beyond the hardest, the number of
 // levels beyond the easiest.
 double half_position(std::span<const double> fit) {
-  constexpr double rounding = 1e-12;  // of means
   if (fit.empty()) return -1.0;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    if (fit[i] < half - rounding) continue;
+    if (fit[i] < half - of_rounding) continue;
     if (i == 0) return -1.0;
     return static_cast<double>(i - 1) + std::min(1.0, (half - fit[i - 1]) / (fit[i] - fit[i - 1]));
   }
@@ -112,12 +113,36 @@ Threshold half_threshold(std::span<const LevelOutcomes> levels) {
   return threshold_at(levels, position_of(means_of(levels, all_repetitions(levels)), levels.size()));
 }
 
-ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const BootstrapSettings& settings) {
-  ThresholdEstimate estimate{half_threshold(levels), {}, {}};
-  const BootstrapDraws draws(levels.front().by_repetition.size(), settings);
+namespace {
+
+ThresholdBracket bracket_of(std::span<const LevelOutcomes> levels) {
+  const Means means = means_of(levels, all_repetitions(levels));
+  const std::vector<double> fit = isotonic_fit(means.values, means.weights);
+  const auto passed = std::find_if(fit.begin(), fit.end(), [](double value) { return value >= half - of_rounding; });
+  const auto level_at = [&](auto found) {
+    return levels[means.levels[static_cast<std::size_t>(found - fit.begin())]].level;
+  };
+  ThresholdBracket bracket;
+  if (passed != fit.begin()) bracket.last_failed = level_at(passed - 1);
+  if (passed != fit.end()) bracket.first_passed = level_at(passed);
+  bracket.is_steep =
+      bracket.last_failed && bracket.first_passed && *(passed - 1)<of_rounding&& * passed> 1.0 - of_rounding;
+  return bracket;
+}
+
+}  // namespace
+
+ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const Resampling& resampling) {
+  ThresholdEstimate estimate{half_threshold(levels), {}, {}, bracket_of(levels)};
   std::vector<double> positions;
-  for (std::size_t i = 0; i < draws.resamples(); ++i)
-    positions.push_back(position_of(means_of(levels, draws.resample(i)), levels.size()));
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < resampling.resamples(); ++i) {
+    drawn.clear();
+    for (std::size_t task = 0; task < resampling.tasks(); ++task)
+      drawn.insert(drawn.end(), resampling.counts(i)[resampling.observation_of_task(task)], task);
+    positions.push_back(position_of(means_of(levels, drawn), levels.size()));
+  }
+  if (positions.empty()) return estimate;
   std::sort(positions.begin(), positions.end());
   // positions themselves, not means of two: between a level and "beyond" there is nothing
   const auto last = static_cast<double>(positions.size() - 1);

@@ -2,10 +2,11 @@
 // threshold.hpp: the level of a graded test at which half of the attempts succeed.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/resampling.hpp"
 
 namespace dmrp::core {
 
@@ -27,14 +28,23 @@ struct Threshold {
   bool beyond_easiest = false;  // not even the easiest level, `level`, does
 };
 
+// Around the threshold: the last level that fails (the isotonic fit is below one half) and the first that is passed.
+struct ThresholdBracket {
+  std::optional<double> last_failed;   // none: even the hardest level is passed
+  std::optional<double> first_passed;  // none: not even the easiest level is
+  bool is_steep = false;  // the fit is 0 at one and 1 at the other: nothing measured says where between them it lies
+};
+
 struct ThresholdEstimate {
   Threshold threshold;
-  Threshold low;   // 95 % interval, on the side of the harder levels: percentile bootstrap over repetitions, which are
-  Threshold high;  // drawn together at all levels
+  Threshold
+      low;  // 95 % interval, on the side of the harder levels: between quantiles over the resampling, in which the
+  Threshold high;  // repetitions are the tasks, drawn together at all levels. Says nothing where the threshold is steep
+  ThresholdBracket bracket{};
 };
 
 // `levels`: from the hardest to the easiest, at least one, with the same number of repetitions.
 Threshold half_threshold(std::span<const LevelOutcomes> levels);
-ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const BootstrapSettings& settings = {});
+ThresholdEstimate estimate_threshold(std::span<const LevelOutcomes> levels, const Resampling& resampling);
 
 }  // namespace dmrp::core

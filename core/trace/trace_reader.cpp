@@ -128,10 +128,15 @@ void TraceReader::read_sample(RecordCursor& in) {
   }
   sample_.contacts = contacts_.data();
   sample_.contact_count = static_cast<std::uint32_t>(contacts_.size());
+  const auto is_robot_or_nobody = [&](std::uint32_t robot) {
+    return robot < world_.robot_count || robot == DMRP_NOBODY;
+  };
   for (const dmrp_call& call : std::span(sample_.calls, sample_.call_count))
     if (call.robot >= world_.robot_count && call.robot != DMRP_ALL_ROBOTS) in.fail("a call for an unknown robot");
   for (const dmrp_robot_event& event : std::span(sample_.events, sample_.event_count))
-    if (event.robot >= world_.robot_count) in.fail("an event of an unknown robot");
+    if (event.robot >= world_.robot_count || !is_robot_or_nobody(event.other)) in.fail("an event of an unknown robot");
+  for (const dmrp_task_event& event : std::span(sample_.task_events, sample_.task_event_count))
+    if (!is_robot_or_nobody(event.robot)) in.fail("a task of an unknown robot");
   read_routes(in, read);
 }
 
@@ -141,6 +146,7 @@ void TraceReader::read_routes(RecordCursor& in, const TraceSample& read) {
   paths_.reserve(read.route_count);
   for (const TraceRoute& route : std::span(read.routes, read.route_count)) {
     if (route.robot >= world_.robot_count) in.fail("a route of an unknown robot");
+    if (!routes_.empty() && route.robot <= routes_.back().robot) in.fail("routes that are not ordered by robot");
     std::vector<dmrp_waypoint>& waypoints = waypoints_[route.robot];
     if (route.kept > waypoints.size()) in.fail("a route that keeps more than there was");
     waypoints.resize(route.kept);

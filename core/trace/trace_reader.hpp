@@ -82,7 +82,7 @@ class TraceReader {
   std::size_t sample_count_ = 0;
   dmrp_sample sample_{};
   std::pmr::monotonic_buffer_resource sample_storage_{std::size_t{1} << 16};
-  std::vector<dmrp_contact> contacts_;  // of the sample: those of known kinds
+  std::vector<dmrp_contact> contacts_;                 // of the sample: those of known kinds
   std::vector<std::vector<dmrp_waypoint>> waypoints_;  // of each robot's last route
   std::vector<dmrp_path> paths_;                       // of the sample's routes
   std::vector<dmrp_route> routes_;

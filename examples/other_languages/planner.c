@@ -23,6 +23,9 @@ static const dmrp_param_spec params[] = {{.key = "orders",
                                           .minimum = 1.0,
                                           .maximum = 1e6}};
 
+static const dmrp_planner_traits traits = {.struct_size = sizeof(dmrp_planner_traits),
+                                           .connectivity = DMRP_CONNECTIVITY_4};
+
 static const dmrp_descriptor prioritized = {
     .struct_size = sizeof(dmrp_descriptor),
     .kind = DMRP_KIND_GLOBAL_PLANNER,
@@ -36,7 +39,7 @@ static const dmrp_descriptor prioritized = {
     .params = params,
     .param_count = 1,
     .param_stride = sizeof(dmrp_param_spec),
-    .connectivity = DMRP_CONNECTIVITY_4};
+    .traits = &traits};
 
 // One step of a path: the cell at its end, and the goal that it leads to, counted from the robot's remaining goals.
 typedef struct step {
@@ -419,19 +422,26 @@ static int32_t start(dmrp_instance* self, const dmrp_start* start) {
 static void destroy(dmrp_instance* self) {
   free(self);
 }
-static int32_t init(const dmrp_host* host) {
+static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
+  (void)self;
   (void)host;
   return DMRP_OK;
 }
-static void deinit(void) {}
-static uint32_t plugin_count(void) {
+static void deinit(const dmrp_entry* self) {
+  (void)self;
+}
+static uint32_t plugin_count(const dmrp_entry* self) {
+  (void)self;
   return 1;
 }
-static const dmrp_descriptor* descriptor(uint32_t index) {
+static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
+  (void)self;
   return index == 0 ? &prioritized : NULL;
 }
 
-static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* values, dmrp_plugin* out) {
+static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* values,
+                      dmrp_plugin* out) {
+  (void)self;
   if (strcmp(id, prioritized.id) != 0) {
     host->set_error(host, "no plugin of that id in this library");
     return DMRP_ERROR;
@@ -446,4 +456,5 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, init, deinit, plugin_count, descriptor, create};
+DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
+              descriptor,         create};

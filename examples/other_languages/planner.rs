@@ -320,7 +320,7 @@ unsafe fn give(
             struct_size: std::mem::size_of::<dmrp_path>() as u32,
             count: waypoints.len() as u32,
             stride: std::mem::size_of::<dmrp_waypoint>() as u32,
-            reserved: 0,
+            flags: 0,
             waypoints: waypoints.as_ptr(),
         };
         let status = ((*sink).path.unwrap())(sink, i as u32, &path);
@@ -344,7 +344,7 @@ const fn text(bytes: &'static [u8]) -> *const c_char {
 
 static PARAMETERS: Shared<[dmrp_param_spec; 1]> = Shared([dmrp_param_spec {
     key: text(b"orders\0"),
-    r#type: DMRP_PARAM_INT as u32,
+    r#type: DMRP_PARAM_INT,
     count: 0,
     integer: 100,
     number: 0.0,
@@ -362,9 +362,14 @@ static PARAMETERS: Shared<[dmrp_param_spec; 1]> = Shared([dmrp_param_spec {
 
 const ID: &[u8] = b"org.example.planner_in_rust\0";
 
+static TRAITS: dmrp_planner_traits = dmrp_planner_traits {
+    struct_size: std::mem::size_of::<dmrp_planner_traits>() as u32,
+    connectivity: DMRP_CONNECTIVITY_4,
+};
+
 static DESCRIPTOR: Shared<dmrp_descriptor> = Shared(dmrp_descriptor {
     struct_size: std::mem::size_of::<dmrp_descriptor>() as u32,
-    kind: DMRP_KIND_GLOBAL_PLANNER as u32,
+    kind: DMRP_KIND_GLOBAL_PLANNER,
     id: text(ID),
     name: text(b"Prioritized planning in Rust\0"),
     version: text(b"0.1.0\0"),
@@ -379,19 +384,16 @@ static DESCRIPTOR: Shared<dmrp_descriptor> = Shared(dmrp_descriptor {
     params: PARAMETERS.0.as_ptr(),
     param_count: 1,
     param_stride: std::mem::size_of::<dmrp_param_spec>() as u32,
-    values: std::ptr::null(),
-    value_count: 0,
-    value_stride: 0,
-    connectivity: DMRP_CONNECTIVITY_4 as u32,
-    channels: 0,
     flags: 0,
-    kinematics: 0,
+    reserved: 0,
+    traits: &TRAITS as *const dmrp_planner_traits as *const c_void,
 });
 
 static INTERFACE: dmrp_global_planner = dmrp_global_planner {
     struct_size: std::mem::size_of::<dmrp_global_planner>() as u32,
     reserved: 0,
     plan: Some(plan),
+    assign: None,
 };
 
 fn set_error(host: *const dmrp_host, text: &str) {
@@ -424,20 +426,20 @@ unsafe extern "C" fn destroy(instance: *mut dmrp_instance) {
     drop(Box::from_raw(instance as *mut Planner));
 }
 
-unsafe extern "C" fn init(_: *const dmrp_host) -> i32 {
+unsafe extern "C" fn init(_: *const dmrp_entry, _: *const dmrp_host) -> i32 {
     std::panic::set_hook(Box::new(|_| {})); // the text goes to set_error(), not to standard error
     DMRP_OK
 }
 
-unsafe extern "C" fn deinit() {
+unsafe extern "C" fn deinit(_: *const dmrp_entry) {
     drop(std::panic::take_hook()); // it lies in this library, which may be unloaded now
 }
 
-unsafe extern "C" fn plugin_count() -> u32 {
+unsafe extern "C" fn plugin_count(_: *const dmrp_entry) -> u32 {
     1
 }
 
-unsafe extern "C" fn descriptor(index: u32) -> *const dmrp_descriptor {
+unsafe extern "C" fn descriptor(_: *const dmrp_entry, index: u32) -> *const dmrp_descriptor {
     if index == 0 {
         &DESCRIPTOR.0
     } else {
@@ -446,6 +448,7 @@ unsafe extern "C" fn descriptor(index: u32) -> *const dmrp_descriptor {
 }
 
 unsafe extern "C" fn create(
+    _: *const dmrp_entry,
     host: *const dmrp_host,
     id: *const c_char,
     params: *const dmrp_params,
@@ -468,7 +471,7 @@ unsafe extern "C" fn create(
 pub static dmrp_entry_v1: dmrp_entry = dmrp_entry {
     struct_size: std::mem::size_of::<dmrp_entry>() as u32,
     abi_minor: DMRP_ABI_MINOR as u32,
-    min_host_minor: 0,
+    min_host_minor: DMRP_ABI_MINOR as u32,
     abi_draft: DMRP_ABI_DRAFT as u32,
     init: Some(init),
     deinit: Some(deinit),

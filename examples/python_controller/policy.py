@@ -4,8 +4,8 @@ point ahead on the path without coming close to anybody. Replace step() by your 
 
 import numpy as np
 
-STATE = ("x y theta v_x v_y omega goal_x goal_y goal_theta goal_tolerance_m progress_m released_waypoint v_max omega_max "
-         "a_max alpha_max radius_m dt_s").split()
+STATE = ("x y theta v_x v_y omega goal_x goal_y goal_theta goal_tolerance_m progress_m v_max omega_max a_max alpha_max "
+         "radius_m dt_s").split()
 SECONDS = np.arange(0.1, 1.55, 0.1)  # of the simulated motions
 LOOK_AHEAD_M = 0.9
 MARGIN_M = 0.25
@@ -17,7 +17,7 @@ class Policy:
         self.path = np.empty((0, 4))
 
     def set_path(self, path):
-        """Rows of x, y, theta (NaN: any), t in seconds."""
+        """Rows of x, y, theta (NaN: any), t in seconds. The robot must stop at the last: a longer path may follow."""
         self.path = np.frombuffer(path).reshape(-1, 4)
         steps = np.hypot(*np.diff(self.path[:, :2], axis=0).T)
         self.arcs = np.concatenate(([0.0], np.cumsum(steps)))
@@ -28,7 +28,7 @@ class Policy:
         agents = np.frombuffer(agents).reshape(-1, 6)  # kind (1 robot, 2 person), x, y, v_x, v_y, radius
         if len(self.path) == 0:
             return None
-        end_m = self.arcs[min(int(now["released_waypoint"]), len(self.arcs) - 1)]
+        end_m = self.arcs[-1]
         ahead_m = min(now["progress_m"] + LOOK_AHEAD_M, end_m)
         carrot = np.array([np.interp(ahead_m, self.arcs, self.path[:, i]) for i in (0, 1)])
         left_m = np.hypot(carrot[0] - now["x"], carrot[1] - now["y"])

@@ -133,7 +133,6 @@ class PythonController final : public dmrp::LocalController {
                                        now.goal.pose.theta,
                                        now.goal.tolerance_m,
                                        now.progress_m,
-                                       static_cast<double>(now.released_waypoint),
                                        now.limits.v_max,
                                        now.limits.omega_max,
                                        now.limits.a_max,

@@ -33,8 +33,7 @@ BundleLayout::BundleLayout(const Experiment& experiment, const Manifest& manifes
   for (const LibraryUse& library : experiment.libraries)
     add_library(library.file, all_libraries || name_of_own_library(library.file).empty());
   for (const ScenarioVariant& variant : experiment.scenarios) add_scenario(variant);
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+  for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
       for (const ParameterValue& value : use.parameters)
         if (value.type == DMRP_PARAM_PATH && is_file(value.text)) add_parameter(value.text);

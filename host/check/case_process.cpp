@@ -60,6 +60,8 @@ void examine(const CheckCase& check_case, const std::filesystem::path& file, con
   } catch (const Skipped& skipped) {
     return send(answer, {{"result", CheckResult::skip}, {"text", skipped.reason}});
   } catch (const PluginFault& fault) {
+    if (fault.kind() == std::string_view(fault_kind::unsupported))
+      return send(answer, {{"result", CheckResult::skip}, {"text", "it says that this trial is not for it"}});
     examination->fail(fault.text());
   } catch (const std::bad_alloc&) {
     examination->fail(fmt::format("needs more than {} MB of memory", memory_mb));

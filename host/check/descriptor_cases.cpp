@@ -19,14 +19,14 @@ bool is_like(const std::string& text, const char* pattern) {
   return std::regex_match(text, std::regex(pattern));
 }
 
-constexpr std::uint32_t known_flags =
-    DMRP_FLAG_UNCOORDINATED | DMRP_FLAG_CENTRAL | DMRP_FLAG_BACKWARDS | DMRP_FLAG_PROCESSES | DMRP_FLAG_RESIDENT_MEMORY;
+constexpr std::uint32_t flags_of_all = DMRP_FLAG_PROCESSES | DMRP_FLAG_RESIDENT_MEMORY | DMRP_FLAG_PARALLEL;
+constexpr std::uint32_t flags_of_planners = DMRP_FLAG_UNCOORDINATED | DMRP_FLAG_WINDOWED | DMRP_FLAG_ASSIGNS;
+constexpr std::uint32_t flags_of_controllers = DMRP_FLAG_CENTRAL | DMRP_FLAG_BACKWARDS | DMRP_FLAG_BATCHED;
+constexpr std::uint32_t known_flags = flags_of_all | flags_of_planners | flags_of_controllers;
 
 std::uint32_t flags_for(std::uint32_t kind) {
-  std::uint32_t flags = DMRP_FLAG_PROCESSES | DMRP_FLAG_RESIDENT_MEMORY;
-  if (kind == DMRP_KIND_GLOBAL_PLANNER) flags |= DMRP_FLAG_UNCOORDINATED;
-  if (kind == DMRP_KIND_LOCAL_CONTROLLER) flags |= DMRP_FLAG_CENTRAL | DMRP_FLAG_BACKWARDS;
-  return flags;
+  if (kind == DMRP_KIND_GLOBAL_PLANNER) return flags_of_all | flags_of_planners;
+  return kind == DMRP_KIND_LOCAL_CONTROLLER ? flags_of_all | flags_of_controllers : flags_of_all;
 }
 
 bool has_brackets(const std::string& unit) {

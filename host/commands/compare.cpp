@@ -11,7 +11,6 @@
 #include "host/compare/run_comparison.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
-#include "host/ranking/paired_test.hpp"
 #include "host/report/report_page.hpp"
 #include "host/terminal/display_width.hpp"
 #include "host/toml/nearest_name.hpp"
@@ -56,8 +55,9 @@ void check_measured(const CompareOptions& options, std::span<const FailCondition
   for (const FailCondition& condition : conditions) check("--fail-if", condition.metric);
 }
 
-std::string p_words(double p) {
-  return std::isnan(p) ? "=" : p < 0.001 ? "< 0.001" : fmt::format("{:.3f}", p);
+std::string p_words(const PairedDifference& difference) {
+  const double p = difference.p_holm;
+  return difference.equal ? "=" : std::isnan(p) ? "–" : p < 0.001 ? "< 0.001" : fmt::format("{:.3f}", p);
 }
 
 int decimals_of(const MetricComparison& one) {
@@ -78,14 +78,13 @@ void print_row(const MetricComparison& one, std::size_t name_width) {
     return;
   }
   const int decimals = decimals_of(one);
-  const bool few = one.seeds < fewest_observations && !std::isnan(one.p);  // NaN: no pair differs
-  std::string difference =
-      few ? fmt::format("too few ({})", plural(one.seeds, "seed")) : change_words(one.difference, decimals);
-  if (!few && !std::isnan(one.interval.low))
-    difference +=
-        fmt::format(" [{}, {}]", change_words(one.interval.low, decimals), change_words(one.interval.high, decimals));
-  fmt::print("  {}  {:>6}  {:>9.{}f}  {:>9.{}f}  {:>28}  {:>8}\n", pad_right(name, name_width), one.pairs, one.before,
-             decimals, one.after, decimals, difference, few ? "–" : p_words(one.p_holm));
+  const core::MeanOfTasks& over_tasks = one.difference.over_tasks;
+  std::string difference = change_words(over_tasks.mean, decimals);
+  if (!std::isnan(over_tasks.interval.low))
+    difference += fmt::format(" [{}, {}]", change_words(over_tasks.interval.low, decimals),
+                              change_words(over_tasks.interval.high, decimals));
+  fmt::print("  {}  {:>6}  {:>5}  {:>9.{}f}  {:>9.{}f}  {:>28}  {:>8}\n", pad_right(name, name_width), one.pairs,
+             over_tasks.n, one.before, decimals, one.after, decimals, difference, p_words(one.difference));
 }
 
 void print_comparison(const RunComparison& comparison, const fs::path& before, const fs::path& after) {
@@ -97,8 +96,8 @@ void print_comparison(const RunComparison& comparison, const fs::path& before, c
   std::size_t name_width = 6;
   for (const MetricComparison& one : comparison.metrics)
     name_width = std::max(name_width, one.metric.size() + 1 + one.unit.size());
-  fmt::print("\n\n  {}  {:>6}  {:>9}  {:>9}  {:>28}  {:>8}\n", pad_right("metric", name_width), "pairs", "before",
-             "after", "difference, 95 % interval", "p (Holm)");
+  fmt::print("\n\n  {}  {:>6}  {:>5}  {:>9}  {:>9}  {:>28}  {:>8}\n", pad_right("metric", name_width), "pairs", "tasks",
+             "before", "after", "difference, 95 % interval", "p (Holm)");
   for (const MetricComparison& one : comparison.metrics) print_row(one, name_width);
   fmt::print("\n");
 }

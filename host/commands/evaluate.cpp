@@ -59,7 +59,7 @@ class TraceSearch {
     std::vector<StoredTrial> stored;
     for (const TrialRecord& trial : trials) {
       const fs::path trace = trace_path(run_directory_, trial.id);
-      if (trial.outcome == trial_outcome::skipped || trial.outcome == trial_outcome::fault)
+      if (!has_result(trial) || trial.outcome == trial_outcome::fault)
         ++unfinished_;
       else if (std::error_code ignored; fs::is_regular_file(trace, ignored) && !is_trace_of(trial, trace))
         missing_.push_back(fmt::format("trial {}: {} was changed after the run", trial.id, trace.string()));

@@ -105,12 +105,18 @@ Json plugin_as_json(const PluginInfo& info) {
   out["channels"] = bits(info.channels, {{DMRP_CHANNEL_PEOPLE, "people"},
                                          {DMRP_CHANNEL_CALLS, "calls"},
                                          {DMRP_CHANNEL_SCANS, "scans"},
-                                         {DMRP_CHANNEL_RECOVERIES, "recoveries"}});
+                                         {DMRP_CHANNEL_RECOVERIES, "recoveries"},
+                                         {DMRP_CHANNEL_ROUTES, "routes"},
+                                         {DMRP_CHANNEL_TASKS, "tasks"}});
   out["flags"] = bits(info.flags, {{DMRP_FLAG_UNCOORDINATED, "uncoordinated"},
                                    {DMRP_FLAG_CENTRAL, "central"},
                                    {DMRP_FLAG_BACKWARDS, "backwards"},
                                    {DMRP_FLAG_PROCESSES, "processes"},
-                                   {DMRP_FLAG_RESIDENT_MEMORY, "resident_memory"}});
+                                   {DMRP_FLAG_RESIDENT_MEMORY, "resident_memory"},
+                                   {DMRP_FLAG_WINDOWED, "windowed"},
+                                   {DMRP_FLAG_ASSIGNS, "assigns"},
+                                   {DMRP_FLAG_PARALLEL, "parallel"},
+                                   {DMRP_FLAG_BATCHED, "batched"}});
   out["kinematics"] = bits(info.kinematics, {{1u << DMRP_KINEMATICS_DIFFERENTIAL, "differential"},
                                              {1u << DMRP_KINEMATICS_HOLONOMIC, "holonomic"},
                                              {1u << DMRP_KINEMATICS_ACKERMANN, "ackermann"}});

@@ -136,6 +136,9 @@ class RunFiles {
     check_rows(ResultsDatabase::open(database()), experiment, directory());
     manifest.started_at = std::move(before.started_at);
     manifest.command_line = std::move(before.command_line);
+    manifest.experiment.grown_from = std::move(before.experiment.grown_from);
+    if (before.experiment.repetitions < manifest.experiment.repetitions)
+      manifest.experiment.grown_from.push_back(before.experiment.repetitions);
     describe(experiment, manifest);
   }
 
@@ -218,7 +221,7 @@ int run_command(const RunOptions& options) {
   }
   if (!options.bundle.empty()) bundle_run(files.directory(), options.bundle, false);
   const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
-                                  [](const TrialRecord& trial) { return !trial.faults.empty(); });
+                                  [](const TrialRecord& trial) { return has_fault(trial); });
   return faults ? exit_status::faults : exit_status::done;
 }
 

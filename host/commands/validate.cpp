@@ -6,9 +6,40 @@
 #include "host/experiment/experiment.hpp"
 #include "host/guests/probe.hpp"
 #include "host/plan/check_planners.hpp"
+#include "host/program/executable.hpp"
+#include "host/ranking/answer.hpp"
+#include "host/report/data/report_run.hpp"
 
 namespace dmrp::host {
 namespace {
+
+namespace fs = std::filesystem;
+
+// The newest run of this name here; empty: there is none.
+fs::path last_run(const std::string& name) {
+  fs::path last;
+  std::error_code ignored;
+  for (int i = 1;; ++i) {
+    const fs::path path = fs::path("runs") / (i == 1 ? name : fmt::format("{}-{}", name, i));
+    if (!fs::is_directory(path, ignored)) return last;
+    if (fs::is_regular_file(path / "results.sqlite", ignored)) last = path;
+  }
+}
+
+// How many tasks would show the smallest effect of interest, by how those of the last run differ; "" if there is none.
+std::string power_line(const Experiment& experiment) {
+  const fs::path run = last_run(experiment.name);
+  if (run.empty()) return "";
+  const ReportRun stored = read_report_run(run);
+  const auto found =
+      answers(read_summary_layout(shared_data_path() / "layouts/summary.json"), stored.metrics, stored.trials);
+  if (found.empty()) return "";
+  const auto needed = tasks_needed(found.front(), experiment.smallest_effect);
+  if (!needed) return "";
+  return fmt::format("A difference of {} in {} would show with about {} (from how pairs deviate in {})",
+                     experiment.smallest_effect, found.front().criteria.front().name, plural(*needed, "task"),
+                     run.string());
+}
 
 int validate_command(const std::filesystem::path& file) {
   const Experiment experiment = load_experiment(file, 0, &probe_library);
@@ -17,6 +48,7 @@ int validate_command(const std::filesystem::path& file) {
   const std::size_t count = combinations(experiment).size();
   fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),
              plural(experiment.trials, "repetition"), count * experiment.trials, experiment.metrics.size());
+  if (const std::string line = power_line(experiment); !line.empty()) fmt::print("{}\n", line);
   return exit_status::done;
 }
 

@@ -34,15 +34,17 @@ Json libraries_json(const std::vector<ComparedLibrary>& libraries) {
 Json differences_json(const std::vector<MetricComparison>& metrics) {
   Json json = Json::array();
   for (const MetricComparison& one : metrics) {
-    Json difference = {{"metric", one.metric}, {"pairs", one.pairs}, {"seeds", one.seeds}};
+    const core::MeanOfTasks& over_tasks = one.difference.over_tasks;
+    Json difference = {{"metric", one.metric}, {"pairs", one.pairs}, {"tasks", over_tasks.n}};
     if (one.pairs > 0)
       difference.update({{"before", one.before},
                          {"after", one.after},
-                         {"difference", one.difference},
-                         {"low", one.interval.low},
-                         {"high", one.interval.high},
-                         {"p", one.p},
-                         {"p_holm", one.p_holm}});
+                         {"difference", over_tasks.mean},
+                         {"low", over_tasks.interval.low},
+                         {"high", over_tasks.interval.high},
+                         {"equal", one.difference.equal},
+                         {"p", one.difference.p},
+                         {"p_holm", one.difference.p_holm}});
     json.push_back(std::move(difference));
   }
   return json;

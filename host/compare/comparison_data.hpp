@@ -9,7 +9,8 @@
 //                 changes: [text], libraries: [{name, before, after}] with SHA-256s, or null where the run has none,
 //                 differences: [difference], combinations: [{scenario, robots, global_planner, local_controller,
 //                 pedestrian_model}], of_combinations: [combination][metric]: difference}
-//   difference    {metric, pairs, seeds, before, after, difference, low, high, p, p_holm}
+//   difference    {metric, pairs, tasks, before, after, difference, low, high, equal, p, p_holm}; p: null below five
+//                 tasks, or if no pair differs
 #pragma once
 
 #include <string>

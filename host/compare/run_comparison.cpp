@@ -5,62 +5,68 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 #include <regex>
 #include <tuple>
 
-#include "core/statistics/descriptive.hpp"
-#include "core/statistics/holm.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/ranking/paired_test.hpp"
 #include "host/report/data/report_frame.hpp"
 #include "host/report/data/report_values.hpp"
 
 namespace dmrp::host {
 namespace {
 
-// A crowd and a task, under a seed.
-using Situation = std::tuple<std::string, std::uint32_t, std::uint64_t>;
-// A trial: its situation, then its plugins' labels.
-using TrialKey = std::tuple<Situation, std::string, std::string, std::string>;
-
-TrialKey key_of(const TrialRecord& trial) {
-  return {
-      {trial.scenario, trial.robots, trial.seed}, trial.global_planner, trial.local_controller, trial.pedestrian_model};
-}
-
-std::map<TrialKey, std::size_t> trials_by_key(std::span<const TrialRecord> trials) {
-  std::map<TrialKey, std::size_t> found;
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    if (trials[i].outcome != trial_outcome::skipped) found.emplace(key_of(trials[i]), i);
-  return found;
-}
-
-struct TrialPair {
-  std::size_t before;
-  std::size_t after;
-  Situation situation;
-};
-
-std::vector<TrialPair> pairs_of(const std::map<TrialKey, std::size_t>& before,
-                                const std::map<TrialKey, std::size_t>& after) {
-  std::vector<TrialPair> pairs;
-  for (const auto& [key, trial] : before)
-    if (const auto partner = after.find(key); partner != after.end())
-      pairs.push_back({trial, partner->second, std::get<0>(key)});
-  return pairs;
-}
-
-// The trials and values of both runs.
-struct ComparedFrames {
+// The trials of both runs, those before the change first, and their values.
+struct BothRuns {
   ReportFrame before;
   ReportFrame after;
   const ExperimentFacts& facts_before;
   const ExperimentFacts& facts_after;
+  std::vector<TrialRecord> trials;  // without their values
+  Tasks tasks;
+
+  bool is_before(std::size_t trial) const { return trial < before.trials.size(); }
 };
+
+// What tells trials apart, without what was measured.
+std::vector<TrialRecord> keys_of(const ReportRun& before, const ReportRun& after) {
+  std::vector<TrialRecord> keys;
+  for (const ReportRun* run : {&before, &after})
+    for (const TrialRecord& trial : run->trials) {
+      TrialRecord& key = keys.emplace_back();
+      std::tie(key.scenario, key.robots, key.global_planner, key.local_controller, key.pedestrian_model) =
+          std::tie(trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model);
+      std::tie(key.seed, key.task, key.swept, key.outcome) =
+          std::tie(trial.seed, trial.task, trial.swept, trial.outcome);
+    }
+  return keys;
+}
+
+// The runs are the entries, in all situations or in those of one combination.
+Findings findings_of(const BothRuns& runs, const CombinationLabels* only = nullptr) {
+  return make_findings(runs.trials, runs.tasks, [&](std::size_t trial) -> std::optional<Split> {
+    const CombinationLabels cell = combination_of(runs.trials[trial]);
+    if (only && cell != *only) return std::nullopt;
+    return Split{{runs.is_before(trial) ? "before" : "after", 0, "", "", ""}, cell};
+  });
+}
+
+// The situations of both runs.
+std::uint32_t pairs_of(const Findings& findings, std::uint32_t& only_first, std::uint32_t& only_second) {
+  std::uint32_t pairs = 0;
+  for (std::size_t i = 0; i < findings.situations.size(); ++i) {
+    const auto has = [&](std::size_t entry) {
+      return entry < findings.entries.size() && !findings.trials[entry][i].empty();
+    };
+    if (has(0) && has(1)) ++pairs;
+    if (has(0) && !has(1)) ++only_first;
+    if (has(1) && !has(0)) ++only_second;
+  }
+  return pairs;
+}
 
 // How values of a metric count, by the layouts.
 CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
@@ -75,86 +81,47 @@ CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
   return rule;
 }
 
-// The values of one metric in both runs.
-class ComparedMetricValues {
- public:
-  ComparedMetricValues(std::size_t before, std::size_t after, const CountedValue& rule)
-      : rule_before_(rule), rule_after_(rule) {
-    rule_before_.metric = before;
-    rule_after_.metric = after;
-  }
-
-  const CountedValue& rule() const { return rule_before_; }
-
-  std::optional<double> before(const ComparedFrames& frames, const TrialPair& pair) const {
-    return counted_value(frames.before, frames.facts_before, rule_before_, pair.before);
-  }
-  std::optional<double> after(const ComparedFrames& frames, const TrialPair& pair) const {
-    return counted_value(frames.after, frames.facts_after, rule_after_, pair.after);
-  }
-
- private:
-  CountedValue rule_before_;
-  CountedValue rule_after_;
+// A metric that both runs have.
+struct MeasuredTwice {
+  CountedValue before;
+  CountedValue after;
 };
 
-MetricComparison compare_metric(const ComparedMetricValues& metric, const ComparedFrames& frames,
-                                std::span<const TrialPair> pairs) {
-  std::vector<double> befores;
-  std::vector<double> afters;
-  std::map<Situation, std::vector<double>> by_situation;
-  for (const TrialPair& pair : pairs) {
-    const auto a = metric.before(frames, pair);
-    const auto b = metric.after(frames, pair);
-    if (!a || !b) continue;
-    befores.push_back(*a);
-    afters.push_back(*b);
-    by_situation[pair.situation].push_back(*b - *a);
-  }
-  std::vector<double> differences;
-  std::vector<std::vector<double>> clusters;
-  for (const auto& [situation, values] : by_situation) {
-    differences.push_back(core::mean(values));
-    clusters.push_back({differences.back()});
-  }
-  const MetricColumn& column = frames.before.metrics[metric.rule().metric];
+MetricComparison compare_metric(const MeasuredTwice& metric, const BothRuns& runs, const Findings& findings) {
+  const JointValues values = means_of([&](std::size_t trial) {
+    return runs.is_before(trial)
+               ? counted_value(runs.before, runs.facts_before, metric.before, trial)
+               : counted_value(runs.after, runs.facts_after, metric.after, trial - runs.before.trials.size());
+  });
+  const MetricColumn& column = runs.before.metrics[metric.before.metric];
   MetricComparison result;
   result.metric = column.name;
   result.unit = column.unit;
-  result.pairs = static_cast<std::uint32_t>(befores.size());
-  result.seeds = static_cast<std::uint32_t>(differences.size());
-  if (differences.empty()) return result;
-  result.before = core::mean(befores);
-  result.after = core::mean(afters);
-  result.difference = core::mean(differences);
-  result.interval = core::cluster_bootstrap_interval(clusters);
-  const bool equal = std::all_of(differences.begin(), differences.end(), [](double one) { return one == 0.0; });
-  const PairedTest test = metric.rule().counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank;
-  result.p = equal ? std::numeric_limits<double>::quiet_NaN() : paired_test(differences, test).p;
+  if (findings.entries.size() < 2) return result;
+  const JointFindings joint = joint_findings(findings, runs.tasks, std::vector<std::size_t>{0, 1}, values);
+  const core::Bounds bounds = bounds_of_values(metric.before.counts_failures);
+  result.pairs = joint.situations;
+  result.before = core::mean_of_tasks(joint.values[0], bounds, runs.tasks.resampling).mean;
+  result.after = core::mean_of_tasks(joint.values[1], bounds, runs.tasks.resampling).mean;
+  result.difference = paired_difference(joint.differences(0, 1),
+                                        metric.before.counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank,
+                                        runs.tasks.resampling);
   return result;
 }
 
-void adjust_by_holm(std::span<MetricComparison* const> family) {
-  std::vector<double> p_values;
-  for (const MetricComparison* one : family) p_values.push_back(one->p);
-  const std::vector<double> adjusted = core::holm_adjusted(p_values);
-  for (std::size_t i = 0; i < adjusted.size(); ++i) family[i]->p_holm = adjusted[i];
-}
-
-std::vector<CombinationComparison> compare_combinations(std::span<const ComparedMetricValues> metrics,
-                                                        const ComparedFrames& frames,
-                                                        std::span<const TrialPair> pairs) {
-  std::map<std::size_t, std::vector<TrialPair>> of_combination;
-  for (const TrialPair& pair : pairs) of_combination[frames.before.combination_of[pair.before]].push_back(pair);
+std::vector<CombinationComparison> compare_combinations(std::span<const MeasuredTwice> metrics, const BothRuns& runs) {
   std::vector<CombinationComparison> combinations;
-  for (const auto& [combination, own] : of_combination) {
-    combinations.push_back({frames.before.combinations[combination], {}});
-    for (const ComparedMetricValues& metric : metrics)
-      combinations.back().metrics.push_back(compare_metric(metric, frames, own));
+  for (const CombinationLabels& labels : runs.before.combinations) {
+    const Findings findings = findings_of(runs, &labels);
+    std::uint32_t alone = 0;
+    if (pairs_of(findings, alone, alone) == 0) continue;
+    combinations.push_back({labels, {}});
+    for (const MeasuredTwice& metric : metrics)
+      combinations.back().metrics.push_back(compare_metric(metric, runs, findings));
   }
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    std::vector<MetricComparison*> family;
-    for (CombinationComparison& one : combinations) family.push_back(&one.metrics[i]);
+    std::vector<PairedDifference*> family;
+    for (CombinationComparison& one : combinations) family.push_back(&one.metrics[i].difference);
     adjust_by_holm(family);
   }
   return combinations;
@@ -195,31 +162,35 @@ std::vector<std::string> changes_between(const Manifest& before, const Manifest&
 
 RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
                            std::span<const std::string> metrics) {
-  const auto trials_before = trials_by_key(before.trials);
-  const auto trials_after = trials_by_key(after.trials);
-  const std::vector<TrialPair> pairs = pairs_of(trials_before, trials_after);
+  std::vector<TrialRecord> keys = keys_of(before, after);
+  const Tasks tasks = tasks_of(keys);
+  const BothRuns runs{make_report_frame(before.metrics, before.trials),
+                      make_report_frame(after.metrics, after.trials),
+                      before.manifest.experiment,
+                      after.manifest.experiment,
+                      std::move(keys),
+                      tasks};
+  const Findings findings = findings_of(runs);
   RunComparison result;
-  result.pairs = static_cast<std::uint32_t>(pairs.size());
-  result.only_before = static_cast<std::uint32_t>(trials_before.size() - pairs.size());
-  result.only_after = static_cast<std::uint32_t>(trials_after.size() - pairs.size());
+  result.pairs = pairs_of(findings, result.only_before, result.only_after);
   result.changes = changes_between(before.manifest, after.manifest);
 
   result.libraries = libraries_of(before.manifest, after.manifest);
 
-  const ComparedFrames frames{make_report_frame(before.metrics, before.trials),
-                              make_report_frame(after.metrics, after.trials), before.manifest.experiment,
-                              after.manifest.experiment};
-  std::vector<ComparedMetricValues> compared;
+  std::vector<MeasuredTwice> compared;
   for (const std::string& metric : metrics) {
-    const auto index_before = frames.before.metric(metric);
-    const auto index_after = frames.after.metric(metric);
-    if (index_before && index_after) compared.emplace_back(*index_before, *index_after, rule_of(metric, layouts));
+    const auto index_before = runs.before.metric(metric);
+    const auto index_after = runs.after.metric(metric);
+    if (!index_before || !index_after) continue;
+    MeasuredTwice& both = compared.emplace_back(MeasuredTwice{rule_of(metric, layouts), rule_of(metric, layouts)});
+    both.before.metric = *index_before;
+    both.after.metric = *index_after;
   }
-  for (const ComparedMetricValues& metric : compared) result.metrics.push_back(compare_metric(metric, frames, pairs));
-  std::vector<MetricComparison*> family;
-  for (MetricComparison& one : result.metrics) family.push_back(&one);
+  for (const MeasuredTwice& metric : compared) result.metrics.push_back(compare_metric(metric, runs, findings));
+  std::vector<PairedDifference*> family;
+  for (MetricComparison& one : result.metrics) family.push_back(&one.difference);
   adjust_by_holm(family);
-  result.combinations = compare_combinations(compared, frames, pairs);
+  result.combinations = compare_combinations(compared, runs);
   return result;
 }
 
@@ -240,12 +211,15 @@ FailCondition parse_fail_condition(const std::string& text) {
 }
 
 Verdict judge(const FailCondition& condition, const MetricComparison& comparison) {
-  const core::Interval& interval = comparison.interval;
-  if (comparison.seeds < 2) return Verdict::undecided;  // no interval
-  const bool whole = condition.below ? interval.high < condition.limit : interval.low > condition.limit;
-  const bool part = condition.below ? interval.low < condition.limit : interval.high > condition.limit;
-  if (!part) return Verdict::holds;
-  return whole && comparison.seeds >= fewest_observations ? Verdict::fails : Verdict::undecided;
+  const core::Interval& interval = comparison.difference.over_tasks.interval;
+  const auto is_beyond = [&](double value) {
+    return condition.below ? value < condition.limit : value > condition.limit;
+  };
+  if (comparison.pairs > 1 && comparison.difference.equal && !is_beyond(0.0)) return Verdict::holds;
+  if (std::isnan(interval.low)) return Verdict::undecided;
+  const bool low = is_beyond(interval.low);
+  const bool high = is_beyond(interval.high);
+  return low && high ? Verdict::fails : low || high ? Verdict::undecided : Verdict::holds;
 }
 
 }  // namespace dmrp::host

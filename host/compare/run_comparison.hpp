@@ -7,26 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "host/findings/summary.hpp"
+#include "host/ranking/paired_difference.hpp"
 #include "host/report/data/report_data.hpp"
 #include "host/report/data/report_run.hpp"
-#include "host/results/summary.hpp"
 
 namespace dmrp::host {
 
 // One metric over the trials that both runs have: the same scenario, robots, seed and labels. Differences are after -
-// before; trials with the same scenario, robots and seed count together.
+// before, by task.
 struct MetricComparison {
   std::string metric;
   std::string unit;
   std::uint32_t pairs = 0;  // of trials
-  std::uint32_t seeds = 0;  // of them: observations
-  double before = 0.0;      // means over the pairs
+  double before = 0.0;      // means over tasks
   double after = 0.0;
-  double difference = 0.0;    // mean over observations
-  core::Interval interval{};  // 95 %, bootstrap over observations
-  double p = 1.0;             // NaN: no pair differs
-  double p_holm = 1.0;        // over the metrics of the comparison
+  PairedDifference difference;  // p_holm: over the metrics of the comparison
 };
 
 // A plugin library of either run, known by its file's name.
@@ -39,7 +35,7 @@ struct ComparedLibrary {
 // The trials of one combination.
 struct CombinationComparison {
   CombinationLabels combination;
-  std::vector<MetricComparison> metrics;  // p_holm: over the combinations, for the metric
+  std::vector<MetricComparison> metrics;  // difference.p_holm: over the combinations, for the metric
 };
 
 struct RunComparison {
@@ -65,8 +61,8 @@ struct FailCondition {
 };
 FailCondition parse_fail_condition(const std::string& text);  // throws InputError
 
-// Whether the true difference lies beyond the limit: if the whole interval does, with six observations at least, it
-// does; if no part of it does, it does not.
+// Whether the true difference lies beyond the limit: if the whole interval does, it does; if no part of it does, or two
+// trials at least are equal in both runs and none differs, it does not.
 enum class Verdict { holds, fails, undecided };
 Verdict judge(const FailCondition& condition, const MetricComparison& comparison);
 

@@ -32,8 +32,7 @@ std::vector<Combination> combinations(const Experiment& experiment) {
 }
 
 bool counts_resident_memory(const Experiment& experiment) {
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+  for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
       if (use.info.has_flag(DMRP_FLAG_RESIDENT_MEMORY)) return true;
   return false;

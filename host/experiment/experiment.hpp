@@ -2,6 +2,7 @@
 // experiment.hpp: an experiment file, checked and complete. It determines every trial.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -48,7 +49,8 @@ struct Experiment {
   std::vector<PluginUse> local_controllers;  // may be empty if no scenario has robots
   std::vector<PluginUse> pedestrian_models;  // may be empty if no scenario has people
   std::vector<PluginUse> metrics;
-  bool time_limit_set = false;  // by [simulation]; otherwise each scenario has its own limit
+  std::vector<PluginUse> fallback_planners;  // of [simulation] replan_fallback, with their defaults
+  bool time_limit_set = false;               // by [simulation]; otherwise each scenario has its own limit
   core::SimulationSettings simulation;
   core::RobotSettings robot;                     // the default type
   std::vector<core::RobotSettings> robot_types;  // [robot_type.NAME] of this file
@@ -57,11 +59,18 @@ struct Experiment {
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
+  double smallest_effect = 0.05;      // that is of interest, in the first criterion of the answer: changes no result
   std::vector<std::string> warnings;  // one line each
 };
 
 inline const core::SimulationSettings& simulation_of(const Experiment& experiment, const ScenarioVariant& variant) {
   return variant.simulation ? *variant.simulation : experiment.simulation;
+}
+
+// All lists of plugins in use.
+inline std::array<const std::vector<PluginUse>*, 5> plugin_lists(const Experiment& experiment) {
+  return {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models,
+          &experiment.metrics, &experiment.fallback_planners};
 }
 
 // One combination of scenario and plugins: indices into the experiment's lists.

@@ -85,7 +85,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
   for (std::string line; std::getline(lines, line);) reader.read(line);
   std::map<std::string, std::string> identity = reader.take();
   identity["behaviour"] = std::to_string(behaviour);
-  for (const char* key : {"experiment.name", "experiment.trials", "experiment.plugins", "limits.visible"})
+  for (const char* key :
+       {"experiment.name", "experiment.trials", "experiment.plugins", "limits.visible", "benchmark.smallest_effect"})
     identity.erase(key);
   if (const std::vector<std::string> variables = passed_environment(); !variables.empty())
     identity["environment"] = toml_text(variables);
@@ -95,6 +96,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
       const PluginInfo& info = (*uses)[i].info;
       identity[fmt::format("{}[{}].version", kind_name(info.kind), i)] = toml_text(info.version);
     }
+  for (const PluginUse& use : experiment.fallback_planners)
+    identity[fmt::format("fallback {}.version", use.info.id)] = toml_text(use.info.version);
   return identity;
 }
 

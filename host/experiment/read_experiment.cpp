@@ -151,6 +151,20 @@ void check_ordered_execution(const TomlTable& root, const Experiment& experiment
   }
 }
 
+// Where plans are for a window, every planner must know of it.
+void check_windows(const TomlTable& root, const Experiment& experiment) {
+  const auto has_window = [&](const ScenarioVariant& variant) {
+    return simulation_of(experiment, variant).replan.window_steps > 0;
+  };
+  if (std::none_of(experiment.scenarios.begin(), experiment.scenarios.end(), has_window)) return;
+  for (const PluginUse& planner : experiment.global_planners)
+    if (!planner.info.has_flag(DMRP_FLAG_WINDOWED))
+      for (const TomlTable& table : root.tables(kind_name(DMRP_KIND_GLOBAL_PLANNER)))
+        if (const TomlValue use = table.need("use"); use.text() == planner.info.id)
+          use.fail(fmt::format("{} cannot plan for a window, as 'replan_window_steps' asks (DMRP_FLAG_WINDOWED)",
+                               planner.info.id));
+}
+
 // Plugins start processes in a namespace of their own.
 void check_processes(const TomlTable& root, Experiment& experiment) {
   if (box::kind() != "calls") return;
@@ -182,6 +196,7 @@ TomlKeys root_keys() {
                     {"robot"},
                     {"robot_type"},
                     {"record"},
+                    {"benchmark"},
                     {"limits"}}};
   Experiment unused;
   for (const auto& [kind, uses] : lists_by_kind(unused)) root.keys.push_back({kind_name(kind)});
@@ -272,6 +287,8 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   const bool has_worlds =
       has_settings && mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   if (has_worlds) mistakes.attempt([&] { check_number_of_trials(root, experiment); });
+  if (has_worlds) mistakes.attempt([&] { check_windows(root, experiment); });
+  if (has_worlds) mistakes.attempt([&] { read_fallback_planners(root, all_libraries, experiment); });
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });
   mistakes.end();

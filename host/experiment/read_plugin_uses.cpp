@@ -39,10 +39,9 @@ struct FoundPlugin {
 };
 
 // The plugin of that id; none if it may be in a library that could not be read.
-std::optional<FoundPlugin> find_plugin(const TomlValue& use, std::uint32_t kind, bool all_libraries,
-                                       Experiment& experiment) {
+std::optional<FoundPlugin> find_plugin(const TomlValue& use, const std::string& id, std::uint32_t kind,
+                                       bool all_libraries, Experiment& experiment) {
   const std::vector<LibraryUse>& libraries = experiment.libraries;
-  const std::string id = use.text();
   std::vector<std::string> same_kind;
   for (std::uint32_t i = 0; i < libraries.size(); ++i)
     for (const PluginInfo& info : libraries[i].plugins) {
@@ -169,7 +168,7 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     mistakes.attempt([&] { common.bound = read_bound(table); });
     mistakes.attempt([&] {
       const TomlValue use = table.need("use");
-      const auto found = find_plugin(use, kind, all_libraries, experiment);
+      const auto found = find_plugin(use, use.text(), kind, all_libraries, experiment);
       if (!found) return;
       check_extensions(use, *found->info);
       common.library = found->library;
@@ -190,6 +189,28 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     }
   });
   named_bounds.warn_of_one(experiment);
+}
+
+void read_fallback_planners(const TomlTable& root, bool all_libraries, Experiment& experiment) {
+  for (const ScenarioVariant& variant : experiment.scenarios) {
+    const std::string& id = simulation_of(experiment, variant).replan.fallback;
+    const auto is_it = [&](const PluginUse& use) { return use.info.id == id; };
+    auto& fallbacks = experiment.fallback_planners;
+    if (id.empty() || std::any_of(fallbacks.begin(), fallbacks.end(), is_it)) continue;
+    const TomlTable simulation = *root.find_table("simulation");
+    const auto sweep = simulation.find_table("sweep");
+    const auto swept = sweep ? sweep->find("replan_fallback") : std::nullopt;
+    const TomlValue place = swept ? *swept : simulation.need("replan_fallback");
+    const auto found = find_plugin(place, id, DMRP_KIND_GLOBAL_PLANNER, all_libraries, experiment);
+    if (!found) continue;
+    check_extensions(place, *found->info);
+    PluginUse use;
+    use.library = found->library;
+    use.info = *found->info;
+    use.label = use.info.name;
+    for (const ParameterSpec& spec : use.info.parameters) use.parameters.push_back(spec.fallback);
+    fallbacks.push_back(std::move(use));
+  }
 }
 
 // Whether robots of a scenario have recoveries.

@@ -20,6 +20,9 @@ std::vector<TomlKey> plugin_use_keys(std::uint32_t kind);
 void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_libraries, Experiment& experiment,
                       std::vector<PluginUse>& uses);
 
+// The planners that [simulation] of any scenario names as replan_fallback. Call it when the settings are known.
+void read_fallback_planners(const TomlTable& root, bool all_libraries, Experiment& experiment);
+
 // Uses every metric of the experiment's libraries with its defaults, those of recoveries only if robots have them. `at`: the place for errors. Throws InputError.
 void use_every_metric(const TomlValue& at, Experiment& experiment);
 

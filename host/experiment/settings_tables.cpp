@@ -44,11 +44,28 @@ void check_replanning(const TomlTable& table, const core::SimulationSettings& si
                               static_cast<double>(simulation.control_period_ns) / 1e9));
 }
 
+// A robot reaches the end of its window, and stands there until the next plan.
+void check_window(const TomlTable& table, const core::ReplanSettings& replan) {
+  if (replan.period_ns > 0 && replan.period_steps > 0)
+    fail_at_one(table, {"replan_period_steps", "replan_period_s"},
+                "'replan_period_steps' and 'replan_period_s' are one period: give one of them");
+  if (replan.window_steps == 0 || (replan.period_steps > 0 && replan.period_steps <= replan.window_steps)) return;
+  fail_at_one(table, {"replan_window_steps", "replan_period_steps"},
+              fmt::format("'replan_window_steps' = {} needs 'replan_period_steps' from 1 to as many, not {}",
+                          replan.window_steps, replan.period_steps));
+}
+
+Setting plugin_id(const std::string& key, std::string& to) {
+  return {key, [&to](const TomlValue& value) { to = value.text(); }, [&to] { return toml_text(to); },
+          "the id of a plugin"};
+}
+
 }  // namespace
 
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation) {
   check_control_period(table, simulation);
   check_replanning(table, simulation);
+  check_window(table, simulation.replan);
 }
 
 Settings simulation_settings(core::SimulationSettings& to) {
@@ -72,7 +89,10 @@ Settings simulation_settings(core::SimulationSettings& to) {
           seconds_or_never("replan_period_s", to.replan.period_ns),
           number("replan_stray_m", to.replan.stray_m, 0.0, max_length_m),
           seconds_or_never("replan_stall_s", to.replan.stall_ns),
-          seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns)};
+          seconds_or_never("replan_min_interval_s", to.replan.min_interval_ns),
+          integer("replan_period_steps", to.replan.period_steps, 0, 100'000),
+          integer("replan_window_steps", to.replan.window_steps, 0, 100'000),
+          plugin_id("replan_fallback", to.replan.fallback)};
 }
 
 namespace {
@@ -136,6 +156,10 @@ Settings ending_settings(core::SimulationSettings& to) {
 Settings record_settings(Experiment& experiment) {
   return {choice("traces", experiment.traces, {"all", "failed", "none"}), boolean("scans", experiment.scans),
           boolean("annotations", experiment.annotations)};
+}
+
+Settings benchmark_settings(Experiment& experiment) {
+  return {positive("smallest_effect", experiment.smallest_effect, 1.0)};
 }
 
 // Relative to the folder of the experiment.
@@ -222,6 +246,9 @@ void read_run_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("record")) table->read(readers_of(record_settings(experiment)));
   });
   mistakes.attempt([&] {
+    if (const auto table = root.find_table("benchmark")) table->read(readers_of(benchmark_settings(experiment)));
+  });
+  mistakes.attempt([&] {
     if (const auto table = root.find_table("limits"))
       table->read(readers_of(limits_settings(experiment.limits, experiment.file.parent_path())));
   });
@@ -234,6 +261,7 @@ std::vector<TomlKeys> settings_keys() {
                                 keys_of("[recovery]", recovery_settings(unused.simulation.recovery)),
                                 keys_of("[ending]", ending_settings(unused.simulation)),
                                 keys_of("[record]", record_settings(unused)),
+                                keys_of("[benchmark]", benchmark_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   for (TomlKeys& table : keys)
@@ -258,6 +286,7 @@ std::string settings_text(const Experiment& experiment) {
   copy.scans = experiment.scans;
   copy.annotations = experiment.annotations;
   copy.limits = experiment.limits;
+  copy.smallest_effect = experiment.smallest_effect;
   Settings simulation = simulation_settings(copy.simulation);
   if (!experiment.time_limit_set)
     std::erase_if(simulation, [](const Setting& setting) { return setting.key == "time_limit_s"; });
@@ -268,7 +297,8 @@ std::string settings_text(const Experiment& experiment) {
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
   return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + robots +
          "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
-         lines_of(record_settings(copy), 11) + "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
+         lines_of(record_settings(copy), 11) + "\n[benchmark]\n" + lines_of(benchmark_settings(copy), 15) +
+         "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
 }
 
 }  // namespace dmrp::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// settings_tables.hpp: the tables [simulation], [recovery], [ending], [robot], [record] and [limits] of an experiment file: one list of keys
-// for reading and writing.
+// settings_tables.hpp: the tables [simulation], [recovery], [ending], [robot], [record], [benchmark] and
+// [limits] of an experiment file: one list of keys for reading and writing.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace dmrp::host {
 // Reads [simulation], [recovery], [ending], [robot] and [robot_type.NAME]. Throws InputError.
 void read_world_settings(const TomlTable& root, Experiment& experiment);
 
-// Reads [record] and [limits]. Throws InputError.
+// Reads [record], [benchmark] and [limits]. Throws InputError.
 void read_run_settings(const TomlTable& root, Experiment& experiment);
 
 Settings simulation_settings(core::SimulationSettings& to);

@@ -45,6 +45,7 @@ std::string latex_cell(const TableCell& cell, const SummaryTableColumn& column) 
   if (!cell.value) return "--";
   std::string text = latex_number(*cell.value, column.decimals);
   if (cell.spread) text += " $\\pm$ " + latex_number(*cell.spread, column.decimals);
+  if (cell.interval) text += " " + interval_words(cell, column.decimals);
   if (cell.best) text = "\\textbf{" + text + "}";
   return cell.defined < cell.trials ? fmt::format("{}\\,({}/{})", text, cell.defined, cell.trials) : text;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 #include "host/export/run_settings.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
@@ -16,7 +16,7 @@ namespace dmrp::host {
 struct ChartPoint {
   double x = 0.0;
   double mean = 0.0;
-  core::Interval interval{};  // 95 % of the mean, over seeds; NaN for one seed
+  core::Interval interval{};  // 95 % of the mean, over tasks; NaN: none
 };
 
 struct ChartLine {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/export/mean_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -62,24 +64,37 @@ std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const
 class Values {
  public:
   Values(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials)
-      : layout_(layout), trials_(trials), values_(system_values(metrics, trials)) {}
+      : layout_(layout), trials_(trials), values_(system_values(metrics, trials)), tasks_(tasks_of(trials)) {}
+
+  bool is_share(const std::string& name) const {
+    return std::find(layout_.counts_failures.begin(), layout_.counts_failures.end(), name) !=
+           layout_.counts_failures.end();
+  }
 
   std::vector<double> of(const std::vector<std::size_t>& trials, std::size_t metric, const std::string& name) const {
-    const bool counts = std::find(layout_.counts_failures.begin(), layout_.counts_failures.end(), name) !=
-                        layout_.counts_failures.end();
     std::vector<double> found;
     for (const std::size_t trial : trials)
-      if (values_[trial][metric])
-        found.push_back(*values_[trial][metric]);
-      else if (counts && trials_[trial].outcome == trial_outcome::fault)
-        found.push_back(0.0);
+      if (const auto value = value_of(trial, metric, is_share(name))) found.push_back(*value);
     return found;
   }
 
+  core::MeanOfTasks over_tasks(const std::vector<std::size_t>& trials, std::size_t metric,
+                               const std::string& name) const {
+    const bool share = is_share(name);
+    const auto value = [&](std::size_t trial) { return value_of(trial, metric, share); };
+    return core::mean_of_tasks(task_means(tasks_, trials, value), bounds_of_values(share), tasks_.resampling);
+  }
+
  private:
+  std::optional<double> value_of(std::size_t trial, std::size_t metric, bool share) const {
+    if (values_[trial][metric]) return values_[trial][metric];
+    return share && trials_[trial].outcome == trial_outcome::fault ? std::optional(0.0) : std::nullopt;
+  }
+
   const SummaryLayout& layout_;
   std::span<const TrialRecord> trials_;
   SystemValues values_;
+  Tasks tasks_;
 };
 
 // Rows by controller alone are means over planners: a task counts where every planner of the row has a plan, or a planner
@@ -88,7 +103,7 @@ class SolvedTasks {
  public:
   SolvedTasks(const TableSpec& spec, std::span<const TrialRecord> trials, const std::string& planned) : spec_(spec) {
     for (const TrialRecord& trial : trials) {
-      if (trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+      if (trial.robots == 0 || !has_result(trial)) continue;
       planners_[row_of(trial)].insert(trial.global_planner);
       if (system_value(trial, planned)) solved_.insert({task_of(trial), trial.global_planner});
     }
@@ -150,14 +165,24 @@ std::string table_caption(const MeanTable& table) {
   std::string medians;
   for (const SummaryTableColumn& column : table.spec.metrics)
     if (column.median) append(medians, " and ", column.header);
-  std::string words =
-      table.spec.title + ": means over trials" + (medians.empty() ? "" : ", medians of ") + medians + ".";
+  std::uint32_t tasks = 0;
+  for (const TableRow& row : table.rows)
+    for (const TableCell& cell : row.cells) tasks = std::max(tasks, cell.tasks);
+  std::string words = table.spec.title + ": means over " + std::to_string(tasks) + (tasks == 1 ? " task" : " tasks") +
+                      (medians.empty() ? "" : ", medians of ") + medians + ".";
+  if (any_cell([](const TableCell& cell) { return cell.interval.has_value(); }))
+    words += " In brackets: 95 % intervals over tasks.";
   if (table.solved_alone) words += " Over the tasks for which every planner has a plan.";
   if (any_cell([](const TableCell& cell) { return cell.best; }))
-    words += " Bold: told apart from all others of its column by paired tests (Holm, 5 %).";
+    words += " Bold: with 95 % confidence better than all others of its column.";
   if (any_cell([](const TableCell& cell) { return cell.value && cell.defined < cell.trials; }))
     words += " In parentheses: trials in which the value is defined, of all.";
   return words;
+}
+
+std::string interval_words(const TableCell& cell, std::uint32_t decimals) {
+  return cell.interval ? fmt::format("[{:.{}f}, {:.{}f}]", cell.interval->low, decimals, cell.interval->high, decimals)
+                       : "";
 }
 
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,
@@ -176,7 +201,7 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
   std::vector<CombinationLabels> columns;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].robots == 0 || trials[i].outcome == trial_outcome::skipped) continue;
+    if (trials[i].robots == 0 || !has_result(trials[i])) continue;
     const CombinationLabels labels = combination_of(trials[i]);
     std::vector<std::size_t>& cell =
         cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}];
@@ -205,9 +230,13 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
         const std::vector<std::size_t>& cell = cells[{r, c}];
         TableCell shown;
         shown.trials = static_cast<std::uint32_t>(cell.size());
-        const auto found = values.of(cell, *index_of(metrics, column.metric), column.metric);
+        const std::size_t metric = *index_of(metrics, column.metric);
+        const auto found = values.of(cell, metric, column.metric);
+        const core::MeanOfTasks over_tasks = values.over_tasks(cell, metric, column.metric);
         shown.defined = static_cast<std::uint32_t>(found.size());
-        if (!found.empty()) shown.value = column.median ? core::median(found) : core::mean(found);
+        shown.tasks = over_tasks.n;
+        if (!found.empty()) shown.value = column.median ? core::median(found) : over_tasks.mean;
+        if (values.is_share(column.metric) && over_tasks.n > 1) shown.interval = over_tasks.interval;
         if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())
           if (const auto spreads = values.of(cell, *spread, column.spread); !spreads.empty())
             shown.spread = core::mean(spreads);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/statistics/descriptive.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
@@ -30,8 +31,10 @@ struct TableSpec {
 };
 
 struct TableCell {
-  std::optional<double> value;  // the mean of the trials, or their median by the column; none: undefined or no trial
+  std::optional<double> value;  // the mean over tasks, or the trials' median by the column; none: undefined or no trial
   std::optional<double> spread;
+  std::optional<core::Interval> interval;  // of the mean of a share, from two tasks on
+  std::uint32_t tasks = 0;                 // with a value
   std::uint32_t defined = 0;
   std::uint32_t trials = 0;
   bool best = false;  // best_marks.hpp
@@ -56,6 +59,9 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
 
 // The title, and what the marks in the cells mean.
 std::string table_caption(const MeanTable& table);
+
+// "[0.21, 0.83]" of a cell with an interval, else "".
+std::string interval_words(const TableCell& cell, std::uint32_t decimals);
 
 // A table environment with booktabs, for \input.
 std::string latex_table(const MeanTable& table);

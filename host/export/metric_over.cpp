@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "core/statistics/descriptive.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/results/system_values.hpp"
@@ -78,32 +77,31 @@ LineChart metric_over(const std::string& metric, const std::string& over, const 
   const auto index = static_cast<std::size_t>(column - metrics.begin());
   const bool counts =
       std::find(layout.counts_failures.begin(), layout.counts_failures.end(), metric) != layout.counts_failures.end();
-  using Clusters = std::map<std::uint64_t, std::vector<double>>;                       // by seed
-  std::vector<std::pair<std::vector<std::string>, std::map<double, Clusters>>> lines;  // in order of appearance
+  const Tasks tasks = tasks_of(trials);
+  const auto value_of = [&](std::size_t i) {
+    const std::optional<double>& value = values[i][index];
+    return !value && counts && trials[i].outcome == trial_outcome::fault ? std::optional(0.0) : value;
+  };
+  using Points = std::map<double, std::vector<std::size_t>>;       // trials by x
+  std::vector<std::pair<std::vector<std::string>, Points>> lines;  // in order of appearance
   std::vector<std::set<std::string>> found(5);
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    std::optional<double> value = values[i][index];
-    if (!value && counts && trials[i].outcome == trial_outcome::fault) value = 0.0;
     const std::optional<double> x = x_of(trials[i], over, settings);
-    if (!value || !x || trials[i].robots == 0) continue;
+    if (!value_of(i) || !x || trials[i].robots == 0) continue;
     const std::vector<std::string> parts = name_parts(trials[i], over, settings);
     for (std::size_t part = 0; part < parts.size(); ++part) found[part].insert(parts[part]);
     auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& one) { return one.first == parts; });
     if (line == lines.end()) line = lines.insert(lines.end(), {parts, {}});
-    line->second[*x][trials[i].seed].push_back(*value);
+    line->second[*x].push_back(i);
   }
 
   LineChart chart{over, column->unit.empty() || column->unit == "1" ? metric : metric + " (" + column->unit + ")", {}};
   for (const auto& [parts, points] : lines) {
     ChartLine& line = chart.lines.emplace_back(ChartLine{line_name(parts, found), {}});
-    for (const auto& [x, clusters] : points) {
-      std::vector<double> all;
-      std::vector<std::vector<double>> of_seeds;
-      for (const auto& [seed, of_seed] : clusters) {
-        all.insert(all.end(), of_seed.begin(), of_seed.end());
-        of_seeds.push_back(of_seed);
-      }
-      line.points.push_back({x, core::mean(all), core::cluster_bootstrap_interval(of_seeds)});
+    for (const auto& [x, of_point] : points) {
+      const auto over_tasks =
+          core::mean_of_tasks(task_means(tasks, of_point, value_of), bounds_of_values(counts), tasks.resampling);
+      line.points.push_back({x, over_tasks.mean, over_tasks.interval});
     }
   }
   return chart;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 
 namespace dmrp::host {
 

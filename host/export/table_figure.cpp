@@ -39,6 +39,7 @@ std::string cell_words(const TableCell& cell, const SummaryTableColumn& column) 
   if (!cell.value) return "\u2013";
   std::string text = number(*cell.value, column.decimals);
   if (cell.spread) text += " \u00b1 " + number(*cell.spread, column.decimals);
+  if (cell.interval) text += " " + interval_words(cell, column.decimals);
   return cell.defined < cell.trials ? fmt::format("{} ({}/{})", text, cell.defined, cell.trials) : text;
 }
 

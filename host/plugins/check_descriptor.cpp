@@ -97,7 +97,7 @@ std::string unknown_part(const PluginInfo& info) {
       !is_planned_connectivity(info.connectivity))
     return fmt::format("plans with connectivity {}", info.connectivity);
   if (const std::uint32_t needed = info.flags & DMRP_FLAGS_NEEDED)
-    return fmt::format("has the flags {:#x}, which must be understood,", needed);
+    return fmt::format("has the flags {:#x} of DMRP_FLAGS_NEEDED", needed);
   for (const ParameterSpec& spec : info.parameters)
     if (spec.fallback.type > DMRP_PARAM_STRING_ARRAY)
       return fmt::format("has parameter '{}' of type {}", escaped(spec.fallback.key.c_str()), spec.fallback.type);

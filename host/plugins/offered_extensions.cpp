@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/plugins/offered_extensions.hpp"
 
-#include <dmrp/ext/timing.h>
 #include <dmrp/ext/annotate.h>
 #include <dmrp/ext/distance_field.h>
 #include <dmrp/ext/lidar.h>
 #include <dmrp/ext/local_costmap.h>
 #include <dmrp/ext/obstacle_clusters.h>
+#include <dmrp/ext/timing.h>
 #include <dmrp/ext/walking_grid.h>
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace dmrp::host {
 std::vector<std::string> offered_extensions(std::uint32_t kind) {
   switch (kind) {
     case DMRP_KIND_LOCAL_CONTROLLER:
-      return {DMRP_EXT_ANNOTATE,          DMRP_EXT_LIDAR,   DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD,
+      return {DMRP_EXT_ANNOTATE,          DMRP_EXT_LIDAR, DMRP_EXT_LOCAL_COSTMAP, DMRP_EXT_DISTANCE_FIELD,
               DMRP_EXT_OBSTACLE_CLUSTERS, DMRP_EXT_TIMING};
     case DMRP_KIND_PEDESTRIAN_MODEL:
       return {DMRP_EXT_ANNOTATE, DMRP_EXT_WALKING_GRID, DMRP_EXT_TIMING};

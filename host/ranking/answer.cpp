@@ -3,136 +3,218 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <set>
 
-#include "core/statistics/descriptive.hpp"
-#include "core/statistics/holm.hpp"
+#include "core/statistics/best_set.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "host/ranking/paired_test.hpp"
 
 namespace dmrp::host {
 namespace {
 
-RankedCombination ranked(const Contest& contest, std::size_t contestant, const Measures& measures) {
-  RankedCombination result;
-  result.global_planner = contest.contestants[contestant].global_planner;
-  result.local_controller = contest.contestants[contestant].local_controller;
-  std::vector<std::size_t> trials;
-  for (const auto& of_situation : contest.trials[contestant])
-    trials.insert(trials.end(), of_situation.begin(), of_situation.end());
-  result.trials = static_cast<std::uint32_t>(trials.size());
-  for (const Criterion& one : measures.criteria()) result.means.push_back(measures.mean(trials, one));
-  for (const Criterion& one : measures.siblings()) result.sibling_means.push_back(measures.mean(trials, one));
-  return result;
-}
-
-AgainstFirst compare(const std::vector<double>& differences, bool share) {
-  AgainstFirst result;
-  result.observations = static_cast<std::uint32_t>(differences.size());
-  std::vector<std::vector<double>> clusters;
-  for (const double difference : differences) clusters.push_back({difference});
-  result.mean = core::mean(differences);
-  result.interval = core::cluster_bootstrap_interval(clusters);
-  result.sd = core::sample_sd(differences);
-  const bool equal =
-      std::all_of(differences.begin(), differences.end(), [](double one) { return std::fabs(one) < rounding; });
-  result.p =
-      equal ? core::undefined : paired_test(differences, share ? PairedTest::sign_flip : PairedTest::signed_rank).p;
-  return result;
-}
-
-// Corrects the p values over all comparisons with the first.
-void adjust(Answer& answer) {
-  std::vector<double> p_values;
-  for (const RankedCombination& one : answer.ranking)
-    for (const AgainstFirst& against : one.against) p_values.push_back(against.p);
-  const std::vector<double> adjusted = core::holm_adjusted(p_values);
-  auto next = adjusted.begin();
-  for (RankedCombination& one : answer.ranking)
-    for (AgainstFirst& against : one.against) against.p_holm = *next++;
-}
-
-void judge(const Answer& answer, RankedCombination& one) {
-  one.standing = Standing::not_told_apart;
-  for (std::size_t i = 0; i < one.against.size(); ++i) {
-    if (!(one.against[i].p_holm < significant)) continue;
-    one.decided = i;
-    if ((one.against[i].mean < 0.0) == answer.criteria[i].share) one.standing = Standing::worse;
-    return;
+// Those with trials in every cell. With fewer cells than others, an entry would have met other tasks.
+std::vector<std::size_t> entries_of_all_cells(const Findings& findings) {
+  std::set<CombinationLabels> cells;
+  for (const Situation& situation : findings.situations) cells.insert(situation.cell);
+  std::vector<std::size_t> entries;
+  for (std::size_t entry = 0; entry < findings.entries.size(); ++entry) {
+    std::set<CombinationLabels> met;
+    for (std::size_t i = 0; i < findings.situations.size(); ++i)
+      if (!findings.trials[entry][i].empty()) met.insert(findings.situations[i].cell);
+    if (met.size() == cells.size()) entries.push_back(entry);
   }
+  return entries;
 }
 
-std::optional<std::uint64_t> needed(const Answer& answer) {
-  double sd = 0.0;
-  for (const RankedCombination& one : answer.ranking)
-    if (one.standing == Standing::not_told_apart && one.against[0].observations >= least_for_needed)
-      sd = std::max(sd, one.against[0].sd);
-  const double level = significant / static_cast<double>(answer.ranking.size() - 1);  // Holm's strictest
-  return core::pairs_needed(sd, wished_difference, level);
-}
+// The answer about some trials while it is made.
+class Contest {
+ public:
+  Contest(const Measures& measures, const Tasks& tasks, Findings findings)
+      : measures_(measures), tasks_(tasks), findings_(std::move(findings)), order_(entries_of_all_cells(findings_)) {}
 
-void add_flips(Answer& answer, std::size_t sibling) {
-  const std::vector<RankedCombination>& ranking = answer.ranking;
-  for (std::size_t before = 0; before < ranking.size(); ++before)
-    for (std::size_t behind = before + 1; behind < ranking.size(); ++behind)
-      if (ranking[before].means[0] > ranking[behind].means[0] + rounding &&
-          ranking[before].sibling_means[sibling] < ranking[behind].sibling_means[sibling] - rounding)
-        answer.flips.push_back({sibling, before, behind});
-}
+  bool has_rivals() const { return order_.size() > 1; }
 
-Answer answer_of(const Contest& contest, const Measures& measures) {
-  Answer answer;
-  answer.cells = contest.cells;
-  answer.tasks = contest.tasks;
-  answer.tasks_known = contest.tasks_known;
-  answer.in_general = in_general(contest);
-  answer.criteria = measures.criteria();
-  std::vector<RankedCombination> all;
-  for (std::size_t i = 0; i < contest.contestants.size(); ++i) all.push_back(ranked(contest, i, measures));
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return is_better(answer.criteria, all[a].means, all[b].means);
-  });
-  for (const std::size_t i : order) {
-    RankedCombination& one = answer.ranking.emplace_back(all[i]);
-    if (i == order.front()) continue;
-    for (std::size_t c = 0; c < answer.criteria.size(); ++c)
-      one.against.push_back(
-          compare(paired_differences(contest, order.front(), i, measures.difference(c)), answer.criteria[c].share));
+  Answer answer() {
+    Answer answer;
+    describe(answer);
+    std::vector<RankedCombination> all;
+    for (const std::size_t entry : order_) all.push_back(ranked(entry));
+    find_best(answer, all);
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto how_far = [&](std::size_t i) { return all[i].decided.value_or(answer.criteria.size()); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      if (how_far(a) != how_far(b)) return how_far(a) > how_far(b);
+      return is_better(answer.criteria, all[a].means, all[b].means);
+    });
+    std::vector<std::size_t> entries;
+    for (const std::size_t i : order) {
+      entries.push_back(order_[i]);
+      answer.ranking.push_back(std::move(all[i]));
+    }
+    order_ = entries;
+    answer.ranking.front().standing = Standing::first;
+    compare_with_first(answer);
+    find_pareto_set(answer);
+    add_deviation(answer);
+    for (std::size_t i = 0; i < answer.siblings.size(); ++i) add_flips(answer, i);
+    return answer;
   }
-  adjust(answer);
-  for (std::size_t i = 1; i < answer.ranking.size(); ++i) {
-    judge(answer, answer.ranking[i]);
-    answer.observations = std::max(answer.observations, answer.ranking[i].against[0].observations);
+
+ private:
+  void describe(Answer& answer) const {
+    std::set<std::size_t> tasks;
+    std::set<std::size_t> worlds;
+    for (const Situation& situation : findings_.situations) {
+      if (std::find(answer.cells.begin(), answer.cells.end(), situation.cell) == answer.cells.end())
+        answer.cells.push_back(situation.cell);
+      tasks.insert(situation.task);
+      worlds.insert(tasks_.world_of[situation.task]);
+    }
+    answer.tasks = static_cast<std::uint32_t>(tasks.size());
+    answer.worlds = static_cast<std::uint32_t>(worlds.size());
+    answer.in_general = answer.worlds >= core::fewest_worlds_in_general;
+    answer.criteria = measures_.criteria();
+    answer.siblings = measures_.siblings();
   }
-  answer.needed = needed(answer);
-  if (answer.in_general && answer.observations >= least_for_needed && answer.criteria.front().share)
-    answer.pairs = pairs_apart(contest, measures);
-  answer.siblings = measures.siblings();
-  for (std::size_t i = 0; i < answer.siblings.size(); ++i) add_flips(answer, i);
-  return answer;
-}
+
+  RankedCombination ranked(std::size_t entry) const {
+    RankedCombination result;
+    result.global_planner = findings_.entries[entry].global_planner;
+    result.local_controller = findings_.entries[entry].local_controller;
+    std::vector<std::size_t> trials;
+    for (const auto& of_situation : findings_.trials[entry])
+      trials.insert(trials.end(), of_situation.begin(), of_situation.end());
+    result.trials = static_cast<std::uint32_t>(trials.size());
+    const auto over_tasks = [&](const Criterion& one) {
+      const auto value = [&](std::size_t trial) { return measures_.value(trial, one); };
+      return core::mean_of_tasks(task_means(tasks_, trials, value), bounds_of_values(one.share()), tasks_.resampling);
+    };
+    for (const Criterion& one : measures_.criteria()) {
+      const core::MeanOfTasks found = over_tasks(one);
+      result.means.push_back(found.mean);
+      result.intervals.push_back(found.interval);
+    }
+    for (const Criterion& one : measures_.siblings()) result.sibling_means.push_back(over_tasks(one).mean);
+    return result;
+  }
+
+  // By task: of one entry minus of another.
+  std::vector<double> differences(std::size_t a, std::size_t b, const Criterion& criterion) const {
+    return joint_findings(findings_, tasks_, std::vector{a, b}, measures_.joint(criterion)).differences(0, 1);
+  }
+
+  void compare_with_first(Answer& answer) const {
+    for (std::size_t i = 1; i < order_.size(); ++i)
+      for (const Criterion& criterion : answer.criteria)
+        answer.ranking[i].against.push_back(
+            paired_difference(differences(order_.front(), order_[i], criterion),
+                              criterion.share() ? PairedTest::sign_flip : PairedTest::signed_rank, tasks_.resampling));
+  }
+
+  core::BestSet best_set(const core::Resampling& resampling) const {
+    std::vector<core::Criterion> criteria;
+    for (const Criterion& one : measures_.criteria()) {
+      core::Criterion& by = criteria.emplace_back();
+      by.differences = [this, one](std::size_t a, std::size_t b) { return differences(order_[a], order_[b], one); };
+      by.higher_is_better = one.share();
+      by.score = one.kind == Criterion::Kind::time ? core::PairedScore::ranks : core::PairedScore::mean;
+      by.margin = one.share() ? tolerated_share : one.kind == Criterion::Kind::delay ? tolerated_delay_s : 0.0;
+      by.bounds = bounds_of_values(one.share());
+    }
+    return core::best_set(order_.size(), criteria, resampling);
+  }
+
+  void find_best(const Answer& answer, std::vector<RankedCombination>& all) const {
+    const core::BestSet best = best_set(tasks_.resampling);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].standing = best.excluded[i] ? Standing::worse : Standing::may_be_best;
+      if (best.excluded[i]) all[i].decided = best.excluded[i]->criterion;
+    }
+    if (!answer.in_general) return;
+    const core::BestSet general = best_set({tasks_.world_of, core::Scope::in_general});
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].best_in_general = !general.excluded[i];
+  }
+
+  static void find_pareto_set(Answer& answer) {
+    std::vector<std::vector<double>> means(answer.criteria.size());
+    std::vector<bool> higher_is_better;
+    for (std::size_t c = 0; c < answer.criteria.size(); ++c) {
+      higher_is_better.push_back(answer.criteria[c].share());
+      for (const RankedCombination& one : answer.ranking) means[c].push_back(one.means[c]);
+    }
+    const std::vector<bool> found = core::pareto_set(means, higher_is_better);
+    for (std::size_t i = 0; i < found.size(); ++i) answer.ranking[i].pareto = found[i];
+  }
+
+  static void add_deviation(Answer& answer) {
+    for (const RankedCombination& one : answer.ranking)
+      if (one.standing == Standing::may_be_best && one.against[0].over_tasks.n >= least_for_deviation)
+        answer.deviation = std::max(answer.deviation, one.against[0].over_tasks.sd);
+  }
+
+  static void add_flips(Answer& answer, std::size_t sibling) {
+    const std::vector<RankedCombination>& ranking = answer.ranking;
+    for (std::size_t before = 0; before < ranking.size(); ++before)
+      for (std::size_t behind = before + 1; behind < ranking.size(); ++behind)
+        if (ranking[before].means[0] > ranking[behind].means[0] + rounding &&
+            ranking[before].sibling_means[sibling] < ranking[behind].sibling_means[sibling] - rounding)
+          answer.flips.push_back({sibling, before, behind});
+  }
+
+  const Measures& measures_;
+  const Tasks& tasks_;
+  Findings findings_;
+  std::vector<std::size_t> order_;  // entries
+};
 
 }  // namespace
+
+std::string combination_name(const RankedCombination& one) {
+  return one.global_planner + " + " + one.local_controller;
+}
+
+std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference) {
+  return core::pairs_needed(answer.deviation, difference, significant / static_cast<double>(answer.criteria.size()));
+}
 
 std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
   if (measures.criteria().empty()) return {};
-  std::vector<Answer> found;
-  const auto add = [&](const std::function<bool(const CombinationLabels&)>& included) {
-    const Contest contest = make_contest(trials, Contestants::planners_and_controllers, included);
-    if (contest.contestants.size() > 1) found.push_back(answer_of(contest, measures));
-    return contest.cells;
+  const Tasks tasks = tasks_of(trials);
+  std::vector<CombinationLabels> cells;
+  for (const TrialRecord& trial : trials)
+    if (const auto split = by_planner_and_controller(trial);
+        split && has_result(trial) && std::find(cells.begin(), cells.end(), split->cell) == cells.end())
+      cells.push_back(split->cell);
+  const auto answer_of = [&](const std::function<bool(const CombinationLabels&)>& included) -> std::optional<Answer> {
+    Contest contest(measures, tasks, make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {
+                      const std::optional<Split> split = by_planner_and_controller(trials[i]);
+                      return split && included(split->cell) ? split : std::nullopt;
+                    }));
+    return contest.has_rivals() ? std::optional(contest.answer()) : std::nullopt;
   };
-  const std::vector<CombinationLabels> cells = add([](const CombinationLabels&) { return true; });
-  if (cells.size() < 2) return found;
-  for (const CombinationLabels& cell : cells)
-    add([&](const CombinationLabels& labels) {
-      return labels.scenario == cell.scenario && labels.robots == cell.robots &&
-             labels.pedestrian_model == cell.pedestrian_model;
-    });
+  std::vector<Answer> found;
+  if (auto answer = answer_of([](const CombinationLabels&) { return true; })) {
+    std::set<std::string> models;
+    for (const CombinationLabels& cell : cells) models.insert(cell.pedestrian_model);
+    for (const std::string& model : models) {
+      if (models.size() < 2) break;
+      const auto of_model = answer_of([&](const CombinationLabels& cell) { return cell.pedestrian_model == model; });
+      if (!of_model) continue;
+      Answer::WithPeople& with = answer->with_people.emplace_back(Answer::WithPeople{model, {}});
+      for (const RankedCombination& one : of_model->ranking)
+        if (one.standing != Standing::worse) with.best.push_back(combination_name(one));
+      std::sort(with.best.begin(), with.best.end());
+    }
+    found.push_back(std::move(*answer));
+  }
+  if (cells.size() > 1)
+    for (const CombinationLabels& cell : cells)
+      if (auto answer = answer_of([&](const CombinationLabels& other) { return other == cell; }))
+        found.push_back(std::move(*answer));
   return found;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// answer.hpp: which combination of planner and controller is better: an order, and who can be told apart from the first.
+// answer.hpp: which combination of planner and controller is the best: an order, and the set that has the best in it.
 #pragma once
 
 #include <cstdint>
@@ -8,40 +8,31 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
-#include "host/ranking/contest.hpp"
 #include "host/ranking/measures.hpp"
-#include "host/ranking/pairs_apart.hpp"
+#include "host/ranking/paired_difference.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/system_values.hpp"
 
 namespace dmrp::host {
 
-// A combination against the first, in one criterion. Differences are the combination's minus the first's.
-struct AgainstFirst {
-  std::uint32_t observations = 0;
-  double mean = 0.0;
-  core::Interval interval{};  // 95 %, bootstrap over observations
-  double sd = 0.0;            // of the differences
-  double p = 1.0;             // NaN: equal in every observation, or none; nothing to test
-  double p_holm = 1.0;        // over all combinations and criteria
-};
-
 enum class Standing {
-  first,
-  not_told_apart,  // from the first
-  worse            // than the first: the first criterion that tells them apart speaks against it
+  first,  // of those that may be the best, by the means
+  may_be_best,
+  worse  // not among those of which one is the best, with 95 % confidence
 };
 
 struct RankedCombination {
   std::string global_planner;
   std::string local_controller;
   std::uint32_t trials = 0;
-  std::vector<double> means;          // by criterion; NaN: undefined
-  std::vector<double> sibling_means;  // by sibling of the first criterion
-  std::vector<AgainstFirst> against;  // by criterion; empty for the first
+  std::vector<double> means;              // by criterion; NaN: undefined
+  std::vector<core::Interval> intervals;  // of the means
+  std::vector<double> sibling_means;      // by sibling of the first criterion
+  std::vector<PairedDifference> against;  // by criterion: its values minus the first's; empty for the first
   Standing standing = Standing::first;
-  std::optional<std::size_t> decided;  // the first criterion that tells it apart, for it or against it
+  std::optional<std::size_t> decided;  // of a worse one: the criterion that tells
+  bool best_in_general = true;         // may be so over worlds: Answer::in_general
+  bool pareto = true;                  // no other is as good in all criteria, and better in one
 };
 
 // Two combinations (places in the ranking) whose order in the first criterion one of its siblings turns round.
@@ -54,23 +45,36 @@ struct OrderFlip {
 // Over the trials of one scenario, number of robots and pedestrian model, or of several.
 struct Answer {
   std::vector<CombinationLabels> cells;
-  std::size_t tasks = 0;
-  bool tasks_known = false;
-  bool in_general = false;         // observations are tasks, else situations (a crowd seed on one of these tasks)
-  std::uint32_t observations = 0;  // of the first
+  std::uint32_t tasks = 0;   // the observations
+  std::uint32_t worlds = 0;  // their blocks
+  bool in_general = false;   // worlds are observations, too: there are enough of them
   std::vector<Criterion> criteria;
-  std::vector<RankedCombination> ranking;  // the best first
+  std::vector<RankedCombination> ranking;  // those that may be the best first, then by the criteria
   std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
   std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
-  PairsApart pairs;                        // of combinations; none of fewer than ten tasks
 
-  // Observations that would show a difference of 5 points in the first criterion, from the largest deviation among
-  // combinations that are not told apart. None below ten observations, or where nothing deviates.
-  std::optional<std::uint64_t> needed;
+  // With several pedestrian models, by model: names of those that may be the best (combination_name()).
+  struct WithPeople {
+    std::string pedestrian_model;
+    std::vector<std::string> best;
+  };
+  std::vector<WithPeople> with_people;
+
+  // Of paired differences in the first criterion, the largest among those that may be the best; 0 below ten tasks.
+  double deviation = 0.0;
 };
 
-inline constexpr double wished_difference = 0.05;
-inline constexpr std::uint32_t least_for_needed = 10;
+inline constexpr std::uint32_t least_for_deviation = 10;
+
+// "CBS + DWA"
+std::string combination_name(const RankedCombination& one);
+
+// Tasks that would show this difference in the first criterion with a probability of 80 %; none where nothing deviates.
+std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference);
+
+// Mean differences that decide nothing: then the next criterion may tell.
+inline constexpr double tolerated_share = 0.05;
+inline constexpr double tolerated_delay_s = 0.5;
 
 // Over everything, then, if there are several, for each scenario, number of robots and pedestrian model. Leaves out
 // answers about fewer than two combinations, and is empty if the metrics of the layout were not measured.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/ranking/paired_test.hpp"
-
 namespace dmrp::host {
 namespace {
 
@@ -17,24 +15,22 @@ std::string counted(std::uint64_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::string observed(const Answer& answer, std::uint64_t count) {
-  return counted(count, answer.in_general ? "task" : "crowd seed");
-}
-
 std::string value_words(const Criterion& criterion, double value) {
-  return criterion.share ? fmt::format("{} {:.2f}", criterion.name, value)
-                         : fmt::format("{:.2f} s per metre of its shortest way", value);
+  return criterion.share()                          ? fmt::format("{} {:.2f}", criterion.name, value)
+         : criterion.kind == Criterion::Kind::delay ? fmt::format("{} {:.2f} s", criterion.name, value)
+                                                    : fmt::format("{:.2f} s per metre of its shortest way", value);
 }
 
+// "safe success 0.91 [0.83, 0.96], 1.20 s per metre of its shortest way"
 std::string means_words(const Answer& answer, const RankedCombination& one) {
   std::string words;
-  for (std::size_t i = 0; i < answer.criteria.size(); ++i)
-    if (!std::isnan(one.means[i])) words += (words.empty() ? "" : ", ") + value_words(answer.criteria[i], one.means[i]);
+  for (std::size_t i = 0; i < answer.criteria.size(); ++i) {
+    if (std::isnan(one.means[i])) continue;
+    words += (words.empty() ? "" : ", ") + value_words(answer.criteria[i], one.means[i]);
+    if (answer.criteria[i].share() && !std::isnan(one.intervals[i].low))
+      words += fmt::format(" [{:.2f}, {:.2f}]", one.intervals[i].low, one.intervals[i].high);
+  }
   return words;
-}
-
-std::string p_words(double p) {
-  return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
 }
 
 // "A, B, C and 4 more"
@@ -48,44 +44,70 @@ std::string list_words(const std::vector<std::string>& names) {
   return shown < names.size() ? fmt::format("{} and {} more", words, names.size() - shown) : words;
 }
 
-std::vector<const RankedCombination*> with_standing(const Answer& answer, Standing standing) {
-  std::vector<const RankedCombination*> found;
-  for (const RankedCombination& one : answer.ranking)
-    if (one.standing == standing) found.push_back(&one);
-  return found;
-}
-
 bool is_equal_to_first(const RankedCombination& one) {
-  return std::all_of(one.against.begin(), one.against.end(), [](const AgainstFirst& against) {
-    return against.observations > 0 && std::fabs(against.mean) < 1e-9 && std::isnan(against.p);
+  return !one.against.empty() && std::all_of(one.against.begin(), one.against.end(), [](const auto& against) {
+    return against.over_tasks.n > 0 && against.equal;
   });
 }
 
-std::string beside_words(const Answer& answer, const RankedCombination& one) {
-  if (is_equal_to_first(one)) return combination_name(one) + " (the same in every trial)";
-  if (one.decided) return fmt::format("{} ({})", combination_name(one), difference_words(answer, one, *one.decided));
-  return combination_name(one);
+std::vector<std::string> names_of(const Answer& answer, bool (*holds)(const RankedCombination&)) {
+  std::vector<std::string> names;
+  for (const RankedCombination& one : answer.ranking)
+    if (holds(one))
+      names.push_back(combination_name(one) + (is_equal_to_first(one) ? " (as the first in every trial)" : ""));
+  return names;
+}
+
+bool may_be_best(const RankedCombination& one) {
+  return one.standing != Standing::worse;
 }
 
 std::string best_line(const Answer& answer) {
   const RankedCombination& first = answer.ranking.front();
-  const auto beside = with_standing(answer, Standing::not_told_apart);
-  std::string line = fmt::format("{}: {}.", combination_name(first), means_words(answer, first));
-  if (beside.empty()) return "Best: " + line + " It can be told apart from every other combination.";
-  std::vector<std::string> names;
-  for (const RankedCombination* one : beside) names.push_back(beside_words(answer, *one));
-  return "First: " + line + " Not told apart from it: " + list_words(names) + ".";
+  const std::string means = means_words(answer, first);
+  if (answer.tasks < fewest_tasks)
+    return fmt::format("First: {}: {}. Fewer than {} tasks tell nothing apart.", combination_name(first), means,
+                       fewest_tasks);
+  const std::vector<std::string> best = names_of(answer, may_be_best);
+  if (best.size() == 1) return fmt::format("With 95 % confidence {} is the best of these: {}.", best.front(), means);
+  return fmt::format("With 95 % confidence the best of these is among {}. First: {}: {}.", list_words(best),
+                     combination_name(first), means);
+}
+
+// Over worlds, where there are enough of them for a claim about others.
+std::string general_line(const Answer& answer) {
+  const auto best = names_of(answer, [](const RankedCombination& one) { return one.best_in_general; });
+  return fmt::format("In general, with each of {} as one observation, it is among {}.", counted(answer.worlds, "world"),
+                     list_words(best));
 }
 
 // The last of the order first.
 std::string worse_line(const Answer& answer) {
-  auto worse = with_standing(answer, Standing::worse);
-  std::reverse(worse.begin(), worse.end());
   std::vector<std::string> names;
-  for (const RankedCombination* one : worse)
-    names.push_back(fmt::format("{} ({}, {})", combination_name(*one), difference_words(answer, *one, *one->decided),
-                                p_words(one->against[*one->decided].p_holm)));
-  return "Worse: " + list_words(names) + ".";
+  for (auto one = answer.ranking.rbegin(); one != answer.ranking.rend(); ++one)
+    if (!may_be_best(*one))
+      names.push_back(fmt::format("{} ({})", combination_name(*one), difference_words(answer, *one, *one->decided)));
+  return names.empty() ? "" : "Not the best: " + list_words(names) + ".";
+}
+
+// Who may be the best with each kind of people, where that differs: in how they notice robots, for example.
+std::string people_line(const Answer& answer) {
+  const auto& all = answer.with_people;
+  if (std::all_of(all.begin(), all.end(), [&](const auto& one) { return one.best == all.front().best; })) return "";
+  std::vector<std::string> words;
+  for (const Answer::WithPeople& one : all)
+    words.push_back(fmt::format("with {} it is among {}", one.pedestrian_model, list_words(one.best)));
+  return fmt::format("It depends on the people: {}.", fmt::join(words, "; "));
+}
+
+// The combinations that no other beats in everything, where people or safety have a price.
+std::string pareto_line(const Answer& answer) {
+  const auto names = names_of(answer, [](const RankedCombination& one) { return one.pareto; });
+  std::vector<std::string> criteria;
+  for (const Criterion& criterion : answer.criteria) criteria.push_back(criterion.name);
+  return names.size() < 2 || criteria.size() < 2
+             ? ""
+             : fmt::format("In {}, none is beaten by another in all of: {}.", list_words(criteria), list_words(names));
 }
 
 // "Of the 240 robots of SIPP + E3MoP, 20 did not arrive safely: 14 deadlock, 6 after a contact at fault." "" if none did.
@@ -124,64 +146,52 @@ std::string flip_line(const Answer& answer) {
   return fmt::format("The order depends on whose fault contacts are: {}.", list_words(pairs));
 }
 
-// Whether these tasks can tell the combinations apart; "" where too few tasks were met.
+// Whether these tasks leave room for differences; "" where they do, or where there are too few to say.
 std::string tasks_line(const Answer& answer) {
-  if (answer.pairs.pairs == 0) return "";
+  constexpr double least_mean_share = 0.3;
+  constexpr double most_mean_share = 0.9;
   double mean = 0.0;
   for (const RankedCombination& one : answer.ranking) mean += one.means[0] / static_cast<double>(answer.ranking.size());
-  if (mean < least_mean_share || mean > most_mean_share)
-    return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
-                       mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
-  if (answer.pairs.pairs == 1) return "";  // the line about the first tells
-  return fmt::format("The tasks tell {} of {} pairs of combinations apart.", answer.pairs.apart, answer.pairs.pairs);
-}
-
-// With n pairs no p is below 2^(1 - n), and Holm multiplies the least one by the number of tests.
-std::uint64_t least_observations(const Answer& answer) {
-  double tests = 0.0;
-  for (const RankedCombination& one : answer.ranking)
-    for (const AgainstFirst& against : one.against)
-      if (!std::isnan(against.p)) tests += 1.0;
-  return tests == 0.0 ? 0 : static_cast<std::uint64_t>(std::floor(std::log2(tests / significant) + 1.0)) + 1;
+  if (answer.tasks < least_for_deviation || (mean >= least_mean_share && mean <= most_mean_share)) return "";
+  return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
+                     mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
 }
 
 }  // namespace
 
-std::string combination_name(const RankedCombination& one) {
-  return one.global_planner + " + " + one.local_controller;
-}
-
 std::string difference_words(const Answer& answer, const RankedCombination& one, std::size_t criterion) {
-  const double mean = one.against[criterion].mean;
+  const Criterion& by = answer.criteria[criterion];
+  const double mean = one.against[criterion].over_tasks.mean;
   const bool below = mean < 0.0;
-  return answer.criteria[criterion].share
-             ? fmt::format("{} {:.2f} {}", answer.criteria[criterion].name, std::fabs(mean), below ? "lower" : "higher")
-             : fmt::format("{:.2f} s/m {}", std::fabs(mean), below ? "faster" : "slower");
+  if (by.kind == Criterion::Kind::time)
+    return fmt::format("{:.2f} s/m {}", std::fabs(mean), below ? "faster" : "slower");
+  return fmt::format("{} {:.2f}{} {}", by.name, std::fabs(mean), by.share() ? "" : " s", below ? "lower" : "higher");
 }
 
 std::string answer_heading(const Answer& answer) {
-  const std::string seeds = observed(answer, answer.observations);
-  if (answer.in_general) return fmt::format("In general, over {}", seeds);
-  if (!answer.tasks_known) return fmt::format("Under these {}", seeds);
-  if (answer.tasks == 1) return fmt::format("On this task, over {}", seeds);
-  return fmt::format("On these {} tasks, over {}", answer.tasks, seeds);
+  return fmt::format("In {}, over {}",
+                     answer.worlds == 1 ? "this world" : fmt::format("these {} worlds", answer.worlds),
+                     counted(answer.tasks, "task"));
 }
 
 std::vector<std::string> answer_lines(const Answer& answer, std::span<const CombinationFailures> failures) {
-  std::vector<std::string> lines = {best_line(answer)};
-  if (const auto worse = with_standing(answer, Standing::worse); !worse.empty()) {
-    lines.push_back(worse_line(answer));
-    if (const std::string causes = cause_line(answer, *worse.back(), failures); !causes.empty())
-      lines.push_back(causes);
-  }
-  if (!answer.flips.empty()) lines.push_back(flip_line(answer));
-  if (const std::string tasks = tasks_line(answer); !tasks.empty()) lines.push_back(tasks);
-  if (const std::uint64_t least = least_observations(answer); answer.observations < least)
-    lines.push_back(fmt::format("{} cannot tell so many combinations apart: it takes at least {}.",
-                                observed(answer, answer.observations), least));
-  if (answer.needed)
-    lines.push_back(fmt::format("A difference of 5 points in {} would show with about {} (from how the pairs deviate).",
-                                answer.criteria.front().name, observed(answer, *answer.needed)));
+  std::vector<std::string> lines;
+  const auto add = [&](std::string line) {
+    if (!line.empty()) lines.push_back(std::move(line));
+  };
+  add(best_line(answer));
+  if (answer.in_general) add(general_line(answer));
+  add(people_line(answer));
+  add(worse_line(answer));
+  const auto worse = std::find_if(answer.ranking.rbegin(), answer.ranking.rend(),
+                                  [](const RankedCombination& one) { return !may_be_best(one); });
+  if (worse != answer.ranking.rend()) add(cause_line(answer, *worse, failures));
+  add(pareto_line(answer));
+  if (!answer.flips.empty()) add(flip_line(answer));
+  add(tasks_line(answer));
+  if (const auto needed = tasks_needed(answer, tolerated_share))
+    add(fmt::format("A difference of 5 points in {} would show with about {} (from how the pairs deviate).",
+                    answer.criteria.front().name, counted(*needed, "task")));
   return lines;
 }
 

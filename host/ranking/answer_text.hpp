@@ -17,9 +17,6 @@ std::string answer_heading(const Answer& answer);
 // combinations of the run.
 std::vector<std::string> answer_lines(const Answer& answer, std::span<const CombinationFailures> failures);
 
-// "CBS + DWA"
-std::string combination_name(const RankedCombination& one);
-
 // "safe success 0.25 lower", "0.31 s/m slower": against the first.
 std::string difference_words(const Answer& answer, const RankedCombination& one, std::size_t criterion);
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/ranking/contest.hpp"
+#include "host/findings/findings.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/system_values.hpp"
 
@@ -19,11 +19,13 @@ struct BestMark {
   bool operator==(const BestMark&) const = default;
 };
 
-// One mark at most for each metric among the rows of a scenario, number of robots and pedestrian model: the best mean,
-// if paired differences tell it apart from every other row's (Holm, 5 %). A robot that fails drives less: metrics of
-// driving are marked only where all rows have the same success. Measured times of the machine are not marked: the same
-// code takes longer in one trial than in another. `contestants`: what a row is; rows by planner are
-// compared over all pedestrian models.
+// What a row of a table is.
+enum class Contestants { planners_and_controllers, planners };
+
+// One mark at most for each metric among the rows of a scenario, number of robots and pedestrian model: the row that
+// alone may be the best, with 95 % confidence (core::best_set), each metric by itself. A robot that fails drives less:
+// metrics of driving are marked only where all rows have the same success. Measured times of the machine are not marked:
+// the same code takes longer in one trial than in another. Rows by planner are compared over all pedestrian models.
 std::vector<BestMark> best_marks(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                                  std::span<const TrialRecord> trials, Contestants contestants);
 

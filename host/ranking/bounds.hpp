@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
-#include "host/results/summary.hpp"
+#include "core/statistics/descriptive.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {
@@ -29,7 +29,7 @@ Bounds bounds_of(std::string_view effective_toml);
 struct Place {
   double place = std::numeric_limits<double>::quiet_NaN();
   core::Interval interval{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  std::uint32_t observations = 0;  // tasks, or situations, as in contest.hpp
+  std::uint32_t observations = 0;  // tasks
 };
 
 // The values of the bounds and of a third in one observation.

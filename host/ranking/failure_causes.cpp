@@ -63,7 +63,7 @@ void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const
 std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
   std::vector<CombinationFailures> failures;
   for (const TrialRecord& trial : trials) {
-    if (trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+    if (trial.robots == 0 || !has_result(trial)) continue;
     const CombinationLabels labels = combination_of(trial);
     auto found = std::find_if(failures.begin(), failures.end(),
                               [&](const CombinationFailures& one) { return one.combination == labels; });
@@ -100,6 +100,19 @@ std::string failures_line(std::span<const CombinationFailures> failures) {
       robots += cause.robots;
     }
   return robots == 0 ? "" : std::to_string(robots) + " did not arrive: " + cause_words(causes);
+}
+
+std::string standstills_line(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
+  std::size_t arrived = 0;
+  std::size_t robots = 0;
+  for (const TrialRecord& trial : trials) {
+    const std::size_t after_all = robots_with(trial, layout.after_standstill, 1.0).size();
+    arrived += after_all;
+    robots += after_all + robots_with(trial, layout.after_standstill, 0.0).size();
+  }
+  if (robots == 0) return "";
+  return "Of " + std::to_string(robots) + (robots == 1 ? " robot" : " robots") +
+         " at standstills that ran on to the time limit, " + std::to_string(arrived) + " arrived after all";
 }
 
 }  // namespace dmrp::host

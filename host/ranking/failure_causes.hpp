@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
 
@@ -38,5 +38,8 @@ std::string cause_words(std::vector<FailureCause> causes);
 
 // "12 did not arrive: 9 held behind another robot (roots: 2), 3 stuck"; "" if all arrived.
 std::string failures_line(std::span<const CombinationFailures> failures);
+
+// "Of 6 robots at standstills that ran on to the time limit, 1 arrived after all"; "" without such robots.
+std::string standstills_line(const SummaryLayout& layout, std::span<const TrialRecord> trials);
 
 }  // namespace dmrp::host

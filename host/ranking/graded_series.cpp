@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/statistics/descriptive.hpp"
+#include "core/statistics/resampling.hpp"
 #include "host/ranking/measures.hpp"
 
 namespace dmrp::host {
@@ -70,7 +71,8 @@ GradedResult finished(Collected& one) {
       if (!std::isnan(value)) defined.push_back(value);
     one.result.means.push_back(core::mean(defined));
   }
-  one.result.estimate = core::estimate_threshold(one.levels);
+  const core::Resampling resampling(std::vector<std::uint32_t>(repetitions), core::Scope::these_worlds);
+  one.result.estimate = core::estimate_threshold(one.levels, resampling);
   return one.result;
 }
 
@@ -96,7 +98,7 @@ std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<c
     std::vector<Collected> collected;
     for (const TrialRecord& trial : trials) {
       const auto level = std::find(series.scenarios.begin(), series.scenarios.end(), trial.scenario);
-      if (level == series.scenarios.end() || trial.robots == 0 || trial.outcome == trial_outcome::skipped) continue;
+      if (level == series.scenarios.end() || trial.robots == 0 || !has_result(trial)) continue;
       take(trial, static_cast<std::size_t>(level - series.scenarios.begin()), share,
            collected_for(collected, trial, series));
     }
@@ -108,8 +110,11 @@ std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<c
 
 std::string threshold_words(const GradedSeries& series, const core::ThresholdEstimate& estimate) {
   const std::string unit = series.unit == "1" ? "" : " " + series.unit;
-  const core::Threshold& threshold = estimate.threshold;
-  const std::string at = shown(series, threshold);
+  if (const core::ThresholdBracket& bracket = estimate.bracket; bracket.is_steep) {
+    const auto [low, high] = std::minmax(*bracket.last_failed, *bracket.first_passed);
+    return fmt::format("between {} and {}{}", shown(low), shown(high), unit);
+  }
+  const std::string at = shown(series, estimate.threshold);
   const std::string low = shown(series, series.harder_when_higher ? estimate.high : estimate.low);
   const std::string high = shown(series, series.harder_when_higher ? estimate.low : estimate.high);
   if (low == high) return at + unit;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/statistics/threshold.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {
@@ -37,7 +37,8 @@ struct GradedSeries {
 std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<const ScenarioFacts> scenarios,
                                         std::span<const TrialRecord> trials);
 
-// "0.72 [0.71, 0.74] m"; "≤ 0.55 m" if even the hardest level, 0.55 m, is passed; "> 1 m" if not even the easiest is.
+// "0.72 [0.71, 0.74] m"; "between 0.7 and 0.75 m" if nobody passes the one and all pass the other; "≤ 0.55 m" if even the
+// hardest level, 0.55 m, is passed; "> 1 m" if not even the easiest is.
 std::string threshold_words(const GradedSeries& series, const core::ThresholdEstimate& estimate);
 
 // What tells a combination from the others of all series: the controller alone, if there is one planner.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// measures.hpp: in what combinations of planner and controller are compared: shares of robots, and time.
+// measures.hpp: in what combinations of planner and controller are compared: shares of robots, people's delay, time.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/ranking/contest.hpp"
+#include "host/findings/findings.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/system_values.hpp"
 
@@ -17,12 +17,27 @@ namespace dmrp::host {
 // Sums in another order differ by less.
 inline constexpr double rounding = 1e-9;
 
-// Something in which combinations are compared: a share of robots (higher is better), or the time of arrival over the
-// length of the robot's shortest way (lower is better), of robots that arrive with both.
+// [trial][robot]: one metric's values for robots; none if undefined or not measured.
+using RobotValues = std::vector<std::vector<std::optional<double>>>;
+
+// In each trial the delay of people by the robots, s; none if no trial without robots had the same crowd. Let P(t) be
+// the mean progress of a person towards its goals by time t, P0(t) the progress without robots, v the mean desired speed
+// and T the last second that both trials have (the end of the mission if people are still present without robots). Then
+//   delay = (P0(T) - P(T)) / v
+// is the time that a person needs to walk the lost distance. It is negative if people progress faster with robots.
+std::vector<std::optional<double>> people_delays(const SummaryLayout& layout, std::span<const TrialRecord> trials);
+
+// Something in which combinations are compared. Of the time of arrival, over the length of the robot's shortest way,
+// those robots count that arrive with all that are compared.
 struct Criterion {
-  std::string name;        // for readers
-  bool share = true;       // false: the time, in s/m
+  enum class Kind { share, delay, time };
+
+  std::string name;  // for readers
+  Kind kind = Kind::share;
   std::size_t metric = 0;  // of a share: its column
+
+  bool share() const { return kind == Kind::share; }  // higher is better, else lower
+  const char* unit() const { return share() ? "1" : kind == Kind::delay ? "s" : "s/m"; }
 };
 
 // How trials are compared in each criterion.
@@ -31,29 +46,25 @@ class Measures {
   // Keeps `trials`.
   Measures(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials);
 
+  // Shares first, as far as they were measured, time last; none without a share.
   const std::vector<Criterion>& criteria() const { return criteria_; }
 
   // The siblings of the first criterion, shares, as far as they and it were measured.
   const std::vector<Criterion>& siblings() const { return siblings_; }
-  const RobotValues& times() const { return times_; }  // over the lengths of the shortest ways, s/m
 
-  Difference difference(std::size_t criterion) const;
-  double mean(std::span<const std::size_t> trials, const Criterion& criterion) const;  // NaN: undefined
+  JointValues joint(const Criterion& criterion) const;
   std::optional<double> value(std::size_t trial, const Criterion& criterion) const;
 
  private:
-  std::optional<double> share(std::size_t trial, std::size_t metric) const;
-  std::optional<double> time(std::size_t trial) const;
-  std::optional<double> time_difference(std::size_t a, std::size_t b) const;
-
   std::span<const TrialRecord> trials_;
   SystemValues values_;
-  RobotValues times_;  // over the lengths of the shortest ways
+  std::vector<std::optional<double>> delays_;  // by trial
+  RobotValues times_;                          // over the lengths of the shortest ways, s/m
   std::vector<Criterion> criteria_;
   std::vector<Criterion> siblings_;
 };
 
-// Whether means a come before means b, by criterion. An undefined time comes last.
+// Whether means a come before means b, by criterion. An undefined mean comes last.
 bool is_better(const std::vector<Criterion>& criteria, const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace dmrp::host

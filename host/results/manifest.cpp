@@ -59,6 +59,7 @@ Json to_json(const ExperimentFacts& experiment) {
           {"repetitions", experiment.repetitions},
           {"shard", {{"index", experiment.shard.index}, {"count", experiment.shard.count}}},
           {"trials_planned", experiment.trials_planned},
+          {"grown_from", experiment.grown_from},
           {"scenarios", std::move(scenarios)}};
 }
 
@@ -68,6 +69,7 @@ ExperimentFacts parse_experiment(const Json& json) {
   json.at("seed").get_to(experiment.seed);
   json.at("repetitions").get_to(experiment.repetitions);
   json.at("trials_planned").get_to(experiment.trials_planned);
+  if (json.contains("grown_from")) json.at("grown_from").get_to(experiment.grown_from);
   if (json.contains("shard"))
     experiment.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
   else

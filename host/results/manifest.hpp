@@ -60,6 +60,7 @@ struct ExperimentFacts {
   Shard shard;
   std::uint64_t trials_planned = 0;  // of this run's shard
   std::vector<ScenarioFacts> scenarios;
+  std::vector<std::uint32_t> grown_from{};  // earlier numbers of repetitions: it was continued with more
 };
 
 // What an experiment means (host/experiment/identity.hpp); empty in manifests of older versions.

@@ -45,6 +45,10 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
       answer.shares = value.get<std::vector<std::string>>();
     else if (key == "siblings")
       answer.siblings = value.get<std::vector<std::string>>();
+    else if (key == "people_progress")
+      answer.people_progress = value.get<std::string>();
+    else if (key == "people_speed")
+      answer.people_speed = value.get<std::string>();
     else if (key == "time")
       answer.time = value.get<std::string>();
     else if (key == "way_length")
@@ -66,6 +70,8 @@ SummaryLayout parse(std::string_view text) {
       layout.arrived = value.get<std::string>();
     else if (key == "contacts")
       layout.contacts = value.get<std::string>();
+    else if (key == "after_standstill")
+      layout.after_standstill = value.get<std::string>();
     else if (key == "counts_failures")
       layout.counts_failures = value.get<std::vector<std::string>>();
     else if (key == "of_plans")

@@ -26,6 +26,8 @@ struct SummaryTableColumn {
 struct AnswerMetrics {
   std::vector<std::string> shares;    // of robots, the most important first; higher is better
   std::vector<std::string> siblings;  // of the first share, stricter or milder; orders that one turns round are named
+  std::string people_progress;        // curve over seconds: mean distance gained by a person, m
+  std::string people_speed;           // their mean desired speed, m/s: with the curve, the delay that robots cause
   std::string time;                   // of a robot's arrival; lower is better
   std::string way_length;             // of a robot's shortest way, by which its time is divided
 };
@@ -34,6 +36,7 @@ struct SummaryLayout {
   std::vector<SummaryTableColumn> columns;
   std::string arrived;   // metric that is 1 for each robot that completed its task; empty: not in the closing line
   std::string contacts;  // metric whose system value is the number of contacts; likewise
+  std::string after_standstill;  // metric of each robot at a standstill that ran on: 1 if it arrived; likewise
 
   // Metrics that count failures: a trial that ended in a fault has the value 0, and the paper's rule includes failed
   // trials.

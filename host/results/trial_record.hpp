@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/plugins/calls/timing_reason.hpp"
+#include "host/process/fault_kind.hpp"
 #include "host/toml/swept_value.hpp"
 
 namespace dmrp::host {
@@ -73,7 +74,13 @@ inline constexpr const char* succeeded = "succeeded";  // all robots arrived
 inline constexpr const char* failed = "failed";
 inline constexpr const char* fault = "fault";
 inline constexpr const char* skipped = "skipped";
+inline constexpr const char* unsupported = "unsupported";  // a plugin says that the trial is not for it
 }  // namespace trial_outcome
+
+// Of a trial that a fault of this kind ended.
+inline const char* outcome_of(std::string_view fault) {
+  return fault == fault_kind::unsupported ? trial_outcome::unsupported : trial_outcome::fault;
+}
 
 struct TrialRecord {
   std::uint64_t id = 0;
@@ -128,6 +135,15 @@ inline std::optional<double> system_value(const TrialRecord& trial, std::string_
   for (const MetricValue& value : trial.values)
     if (value.subject_kind == DMRP_SUBJECT_SYSTEM && !value.coordinate && value.metric == metric) return value.value;
   return std::nullopt;
+}
+
+// Whether its values count: it was run, and was for all its plugins.
+inline bool has_result(const TrialRecord& trial) {
+  return trial.outcome != trial_outcome::skipped && trial.outcome != trial_outcome::unsupported;
+}
+
+inline bool has_fault(const TrialRecord& trial) {
+  return !trial.faults.empty() && trial.outcome != trial_outcome::unsupported;
 }
 
 }  // namespace dmrp::host

@@ -34,8 +34,7 @@ PluginLimits limits_of(const Experiment& experiment) {
   const RunLimits& limits = experiment.limits;
   const bool watched = limits.memory_mb > 0 && counts_resident_memory(experiment) && !MemoryGroup::available();
   std::set<std::string> with_processes;
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+  for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
       if (use.info.has_flag(DMRP_FLAG_PROCESSES)) with_processes.insert(use.info.id);
   return {box::kind(),
@@ -96,8 +95,7 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
   }
   for (const fs::path& file : scenarios) manifest.files.push_back(hashed_file("scenario", file));
   std::set<fs::path> parameters;
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+  for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses) {
       if (!use.parameter_file.empty()) parameters.insert(use.parameter_file);
       for (const ParameterValue& value : use.parameters)

@@ -64,14 +64,18 @@ bool try_to_report(const RunResults& results, const fs::path& directory) {
 
 namespace {
 
-constexpr std::uint32_t few_trials = 5;
-
-std::string few_trials_caution(std::span<const CombinationSummary> summaries) {
-  std::uint32_t least = few_trials;
-  for (const CombinationSummary& summary : summaries) least = std::min(least, summary.trials);
-  return least < few_trials ? fmt::format("caution: {}: means of so few can mislead",
-                                          least == 1 ? "1 trial each" : fmt::format("{} trials each", least))
-                            : "";
+// Of the combination with the fewest tasks.
+std::string few_tasks_caution(std::span<const CombinationSummary> summaries) {
+  std::size_t least = fewest_tasks;
+  for (const CombinationSummary& summary : summaries) {
+    std::uint32_t tasks = 0;
+    for (const MetricSummary& metric : summary.metrics) tasks = std::max(tasks, metric.tasks);
+    least = std::min<std::size_t>(least, tasks);
+  }
+  return least < fewest_tasks
+             ? fmt::format("caution: {}: means of so few can mislead (tasks = {{ drawn = 40 }} draws more)",
+                           least == 1 ? "1 task" : fmt::format("{} tasks", least))
+             : "";
 }
 
 }  // namespace
@@ -90,12 +94,12 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   const std::size_t width = style.width > 0 ? style.width : text_width;
   if (!all_graded) {
     fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
-    fmt::print("{}\n", table_legend(layout, results.summarised, marks, {width, style.ansi}));
+    fmt::print("{}\n", table_legend(layout, results.summarised, results.summaries, marks, {width, style.ansi}));
   }
   if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
     fmt::print("{}\n", wrapped_text(drawn, width, "  "));
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
-  if (const std::string caution = few_trials_caution(results.summaries); !caution.empty())
+  if (const std::string caution = few_tasks_caution(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
   const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
   for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
@@ -106,7 +110,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   fmt::print("  {}\n", closing_line(layout, results.trials));
   if (const std::string by_type = arrivals_line(layout.arrived, scenarios, results.trials); !by_type.empty())
     fmt::print("  {}\n", by_type);
-  if (const std::string line = failures_line(failures); !line.empty()) fmt::print("  {}\n", line);
+  for (const std::string& line : {failures_line(failures), standstills_line(layout, results.trials)})
+    if (!line.empty()) fmt::print("  {}\n", line);
   std::vector<std::string> files = {"results.sqlite"};
   if (reported) files.insert(files.begin(), "report.html");
   if (std::error_code ignored; fs::is_directory(directory / "traces", ignored)) files.push_back("traces/");
@@ -116,8 +121,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
 void print_results_as_json(const RunResults& results, const SummaryLayout& layout, const fs::path& directory) {
   using Json = nlohmann::ordered_json;
   Json json = {{"run_directory", fs::absolute(directory).string()}};
-  for (const char* outcome :
-       {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault, trial_outcome::skipped})
+  for (const char* outcome : {trial_outcome::succeeded, trial_outcome::failed, trial_outcome::fault,
+                              trial_outcome::skipped, trial_outcome::unsupported})
     json["trials"][outcome] = std::count_if(results.trials.begin(), results.trials.end(),
                                             [&](const TrialRecord& trial) { return trial.outcome == outcome; });
   json["answer"] = Json::array();
@@ -133,11 +138,10 @@ void print_results_as_json(const RunResults& results, const SummaryLayout& layou
                                                        {"pedestrian_model", labels.pedestrian_model},
                                                        {"trials", summary.trials}});
     for (std::size_t i = 0; i < results.summarised.size(); ++i)
-      one["metrics"][results.summarised[i].name] = {{"unit", results.summarised[i].unit},
-                                                    {"defined", summary.metrics[i].defined},
-                                                    {"mean", summary.metrics[i].mean},
-                                                    {"low", summary.metrics[i].interval.low},
-                                                    {"high", summary.metrics[i].interval.high}};
+      one["metrics"][results.summarised[i].name] = {
+          {"unit", results.summarised[i].unit},     {"tasks", summary.metrics[i].tasks},
+          {"defined", summary.metrics[i].defined},  {"mean", summary.metrics[i].mean},
+          {"low", summary.metrics[i].interval.low}, {"high", summary.metrics[i].interval.high}};
   }
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }

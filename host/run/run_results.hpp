@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "host/findings/summary.hpp"
 #include "host/results/arrivals_by_type.hpp"
 #include "host/results/database.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {

@@ -38,9 +38,14 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
   bool arrival_measured = false;
   std::uint64_t faults = 0;
   std::uint64_t skipped = 0;
+  std::uint64_t unsupported = 0;
   std::uint64_t not_repeatable = 0;
   std::optional<double> contacts;
   for (const TrialRecord& trial : trials) {
+    if (trial.outcome == trial_outcome::unsupported) {
+      ++unsupported;
+      continue;
+    }
     faults += trial.faults.size();
     if (trial.outcome == trial_outcome::skipped) {
       ++skipped;
@@ -62,6 +67,7 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
     line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
   if (contacts) line += counted(static_cast<std::uint64_t>(std::llround(*contacts)), "contact") + separator;
   line += counted(faults, "fault") + separator;
+  if (unsupported > 0) line += counted(unsupported, "trial") + " unsupported" + separator;
   if (skipped > 0) line += counted(skipped, "trial") + " skipped" + separator;
   line += not_repeatable == 0 ? "repeatable" : counted(not_repeatable, "trial") + " not repeatable";
   return line;

@@ -86,8 +86,9 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   return rows;
 }
 
+// `share`: intervals stand beside the means.
 Column make_column(const SummaryTableColumn& layout, std::span<const MetricColumn> metrics, std::size_t metric,
-                   const std::vector<Row>& rows, std::span<const BestMark> marks) {
+                   bool share, const std::vector<Row>& rows, std::span<const BestMark> marks) {
   Column column;
   const std::string& unit = metrics[metric].unit;
   column.header = unit.empty() || unit == "1" ? layout.header : layout.header + " " + unit;
@@ -99,6 +100,9 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
     Cell cell{std::isnan(shown) ? undefined_cell : fixed(shown, layout.decimals), "", false};
     if (!std::isnan(shown) && spread && !std::isnan(row.summary->metrics[*spread].mean))
       cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
+    if (share && summary.tasks > 1)
+      cell.text += " [" + fixed(summary.interval.low, layout.decimals) + ", " +
+                   fixed(summary.interval.high, layout.decimals) + "]";
     if (summary.defined > 0 && summary.defined < row.summary->trials)
       cell.note = " (" + std::to_string(summary.defined) + "/" + std::to_string(row.summary->trials) + ")";
     cell.best = std::find(marks.begin(), marks.end(), BestMark{row.summary->combination, layout.metric}) != marks.end();
@@ -175,7 +179,9 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
   for (const SummaryTableColumn& column : layout.columns) {
     const std::optional<std::size_t> metric = index_of(metrics, column.metric);
     if (!metric) continue;
-    columns.push_back(make_column(column, metrics, *metric, rows, marks));
+    const bool share = std::find(layout.counts_failures.begin(), layout.counts_failures.end(), column.metric) !=
+                       layout.counts_failures.end();
+    columns.push_back(make_column(column, metrics, *metric, share, rows, marks));
     set_width(columns.back(), style);
   }
 
@@ -191,8 +197,12 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
 }
 
 std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                         std::span<const BestMark> marks, const TableStyle& style) {
-  std::vector<std::string> parts;
+                         std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
+                         const TableStyle& style) {
+  std::uint32_t tasks = 0;
+  for (const CombinationSummary& summary : summaries)
+    for (const MetricSummary& metric : summary.metrics) tasks = std::max(tasks, metric.tasks);
+  std::vector<std::string> parts = {tasks == 1 ? "1 task" : "means over " + std::to_string(tasks) + " tasks"};
   bool spread = false;
   bool marked = false;
   for (const SummaryTableColumn& column : layout.columns) {
@@ -203,7 +213,7 @@ std::string table_legend(const SummaryLayout& layout, std::span<const MetricColu
                                    [&](const BestMark& mark) { return mark.metric == column.metric; });
   }
   if (spread) parts.push_back("±: deviation over time");
-  if (marked) parts.push_back(std::string(style.ansi ? "bold" : "*") + ": told apart from all others");
+  if (marked) parts.push_back(std::string(style.ansi ? "bold" : "*") + ": better than all others");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
   return text.empty() ? text : wrapped_text(text, style.width, std::string(indent, ' '));

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
+#include "host/findings/summary.hpp"
 #include "host/ranking/best_marks.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {
@@ -18,14 +18,18 @@ struct TableStyle {
 };
 
 // One row for each combination, in groups that can be compared (same scenario, robots and pedestrian model). Cells are
-// means over trials (or medians, by the layout), "–" if no trial has a value, with "(19/20)" if only some have one. Columns that do not fit follow below, with the labels repeated.
+// means over tasks, those of shares with their intervals from two tasks on (or medians of trials, by the layout); "–"
+// if no trial has a value, with "(19/20)" if only some have one. Columns that do not fit follow below, with the labels
+// repeated.
 // `marks`: of planners and controllers (best_marks.hpp).
 std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                           std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
                           const TableStyle& style);
 
-// What the headers and signs of that table stand for, in lines of at most style.width columns (0: one line).
+// The number of tasks, and what the headers and signs of that table stand for, in lines of at most style.width columns
+// (0: one line).
 std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                         std::span<const BestMark> marks, const TableStyle& style);
+                         std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
+                         const TableStyle& style);
 
 }  // namespace dmrp::host

@@ -35,12 +35,14 @@ bool turns_back(const std::vector<dmrp_waypoint>& path, std::size_t at) {
   return toolkit::dot(in, out) < cosine * toolkit::norm(in) * toolkit::norm(out);
 }
 
-// The last waypoint at the path's end that the path leaves, to come back later; -1 if there is none.
-std::int64_t last_early_visit(const std::vector<dmrp_waypoint>& path, double reach_m) {
-  const dmrp_waypoint& end = path.back();
+// The last waypoint at the path's last goal that the path leaves, to come back later; -1 if there is none.
+std::int64_t last_early_visit(const std::vector<dmrp_waypoint>& path, std::span<const dmrp_goal> goals,
+                              double reach_m) {
+  const std::uint32_t goal_index = path.back().goal_index;
+  const dmrp_vec2 goal = toolkit::position(goals[goal_index].pose);
   bool left = false;
-  for (std::size_t i = path.size(); i-- > 0 && path[i].goal_index == end.goal_index;) {
-    const bool there = toolkit::distance(toolkit::position(path[i]), toolkit::position(end)) < reach_m;
+  for (std::size_t i = path.size(); i-- > 0 && path[i].goal_index == goal_index;) {
+    const bool there = toolkit::distance(toolkit::position(path[i]), goal) < reach_m;
     if (there && left) return static_cast<std::int64_t>(i);
     left = left || !there;
   }
@@ -66,9 +68,10 @@ void Dispatcher::set_plan(const Plan& plan) {
     Course& course = courses_[i];
     course = {};
     if (robot.state != DMRP_ROBOT_ACTIVE) continue;
-    course.path = path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
+    course.path = path_to_drive(plan.paths[i], plan.is_partial(i), world_.goals(i), plan.step_duration_ns);
+    course.is_partial = plan.is_partial(i);
     course.released = static_cast<std::uint32_t>(course.path.size() - 1);
-    course.early_visit = last_early_visit(course.path, 0.7 * cell_m);
+    course.early_visit = last_early_visit(course.path, world_.goals(i), 0.7 * cell_m);
     course.behind = waypoints_behind(i, course.path);
     for (std::uint32_t k = 1; k + 1 < course.path.size(); ++k)
       if (turns_back(course.path, k)) course.turns.push_back(k);
@@ -192,22 +195,24 @@ bool Dispatcher::is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) con
 std::uint32_t Dispatcher::goal_waypoint(std::uint32_t robot) const {
   const auto& path = courses_[robot].path;
   const std::uint32_t current = world_.robots()[robot].goal_index;
-  const auto beyond = std::partition_point(path.begin(), path.end(),
-                                           [&](const dmrp_waypoint& waypoint) { return waypoint.goal_index <= current; });
+  const auto beyond = std::partition_point(
+      path.begin(), path.end(), [&](const dmrp_waypoint& waypoint) { return waypoint.goal_index <= current; });
   return beyond == path.begin() ? 0 : static_cast<std::uint32_t>(beyond - path.begin()) - 1;
+}
+
+// Whether the robot reaches its current goal at this waypoint.
+bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const {
+  const Course& course = courses_[robot];
+  return waypoint == goal_waypoint(robot) && !(course.is_partial && waypoint + 1 == course.path.size());
 }
 
 HandedPath Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
-  HandedPath handed;
+  if (by_waypoint()) return {{&course.path[course.target], 1}};
+  HandedPath handed = {{course.path.data(), course.cut + std::size_t{1}}};
+  if (!ends_at_goal(robot, course.cut)) handed.flags = DMRP_PATH_PARTIAL;
   if (std::exchange(course.is_begun, true)) handed.update_flags = DMRP_PATH_CONTINUES;
-  if (by_waypoint()) {
-    handed.waypoints = {&course.path[course.target], 1};
-  } else {
-    handed.waypoints = {course.path.data(), course.cut + std::size_t{1}};
-    if (course.cut < goal_waypoint(robot)) handed.flags = DMRP_PATH_PARTIAL;
-  }
   return handed;
 }
 
@@ -216,7 +221,7 @@ Guidance Dispatcher::guidance(std::uint32_t robot) const {
   const dmrp_goal& goal = world_.goals(robot)[world_.robots()[robot].goal_index];
   if (!by_waypoint()) return {goal, progress_[robot].progress_m(), progress_[robot].waypoint()};
   Guidance guidance = {goal, 0.0, 0};
-  if (course.target != goal_waypoint(robot)) {
+  if (!ends_at_goal(robot, course.target)) {
     const dmrp_waypoint& waypoint = course.path[course.target];
     guidance.goal.pose = {waypoint.x, waypoint.y, waypoint.theta};
   }
@@ -229,13 +234,13 @@ std::vector<PathPosition> Dispatcher::positions_on_paths(std::int64_t later_ns) 
     const auto& path = courses_[i].path;
     const dmrp_vec2 position = toolkit::position(world_.robots()[i].pose);
     if (path.empty() || world_.robots()[i].state == DMRP_ROBOT_FAILED) {
-      positions.push_back({position, position});
+      positions.push_back({position, position, 0});
       continue;
     }
     const std::size_t next =
         std::min<std::size_t>(progress_[i].has_begun() ? progress_[i].waypoint() + 1 : 0, path.size() - 1);
-    positions.push_back(
-        {toolkit::position(path[next]), later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns)});
+    positions.push_back({toolkit::position(path[next]),
+                         later_ns == 0 ? position : position_at(path, time_on_path_ns(i) + later_ns), 0});
   }
   return positions;
 }

@@ -81,6 +81,7 @@ class Dispatcher {
     std::uint32_t target = 0;           // the waypoint that the robot drives to, if dispatch is by waypoint
     std::int64_t early_visit = -1;      // the last waypoint at the last goal from which the course leaves and returns
     std::uint32_t behind = 0;           // waypoints at the beginning to which the robot need not drive back
+    bool is_partial = false;            // it ends before the last goal
     bool is_new = false;                // the controller does not have it yet
     bool is_begun = false;              // the controller has had a path of this course
   };
@@ -90,6 +91,7 @@ class Dispatcher {
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
   std::uint32_t waypoints_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const;
   std::uint32_t goal_waypoint(std::uint32_t robot) const;
+  bool ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const;
   bool is_held(std::uint32_t robot) const;
   void find_stages(Course& course) const;
   std::int64_t time_on_path_ns(std::uint32_t robot) const;

@@ -20,6 +20,8 @@ namespace {
 // The experiment's, with the latency of the trial's controller if it has one of its own.
 core::SimulationSettings settings_of(const Trial& trial) {
   core::SimulationSettings settings = trial.variant.simulation;
+  if (settings.replan.period_steps > 0)
+    settings.replan.period_ns = settings.replan.period_steps * settings.step_duration_ns;
   const std::int32_t controller = trial.combination.local_controller;
   if (controller < 0) return settings;
   const PluginUse& use = trial.experiment.local_controllers[static_cast<std::size_t>(controller)];
@@ -30,7 +32,7 @@ core::SimulationSettings settings_of(const Trial& trial) {
 bool can_replan(const core::SimulationSettings& settings) {
   const core::ReplanSettings& replan = settings.replan;
   const auto& steps = settings.recovery.steps;
-  return replan.period_ns > 0 || replan.stray_m > 0.0 || replan.stall_ns > 0 ||
+  return replan.period_ns > 0 || replan.stray_m > 0.0 || replan.stall_ns > 0 || !replan.fallback.empty() ||
          (settings.recovery.retries > 0 &&
           std::find(steps.begin(), steps.end(), core::RecoveryStep::replan) != steps.end());
 }
@@ -102,10 +104,14 @@ class Run {
     return std::exchange(recovery_asks_for_plan_, false) || due || waits;
   }
 
-  // Without a new plan, the plan in force stays.
+  // Where the planner finds none, its fallback is asked. Without a new plan, the plan in force stays.
   void plan(const InForce* in_force) {
     Plan plan = plugins_.plan(in_force, step_);
     trace_.plan(plan.view(), plan.conflicts);
+    if (!plan.exists() && plan.answered && plugins_.has_fallback()) {
+      plan = plugins_.plan_by_fallback(in_force, step_);
+      trace_.plan(plan.view(), plan.conflicts);
+    }
     if (!plan.exists()) return;
     pending_plan_ = std::move(plan);
     activate_pending_plan();
@@ -124,7 +130,9 @@ class Run {
   }
 
   void replan() {
-    const std::vector<PathPosition> positions = dispatcher_.positions_on_paths(settings_.planning_latency_ns);
+    std::vector<PathPosition> positions = dispatcher_.positions_on_paths(settings_.planning_latency_ns);
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+      positions[i].waiting_ns = world_.t_ns() - referee_.waits_since_ns(i);
     const InForce in_force = {plan_.view(), positions};
     plan(&in_force);
   }
@@ -185,7 +193,7 @@ class Run {
 
   // The robots' states, and what their controllers were handed and answered since the last sample.
   void note_robots() {
-    constexpr dmrp_twist nothing = {std::nan(""), std::nan(""), std::nan("")};
+    const dmrp_twist nothing = {std::nan(""), std::nan(""), std::nan("")};
     robots_.clear();
     for (std::size_t i = 0; i < world_.robots().size(); ++i) {
       const core::RobotState& robot = world_.robots()[i];

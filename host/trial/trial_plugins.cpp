@@ -62,7 +62,8 @@ TrialPlugins::TrialPlugins(Guests& guests, const Experiment& experiment, const C
   };
   planner_use_ = use(experiment_.global_planners, combination.global_planner);
   if (planner_use_ && (!first_plan_.given || (annotated_trace_ && asks_for(planner_use_->info, DMRP_EXT_ANNOTATE))))
-    start_planner(guests, seed);
+    planner_ = start_planner(guests, *planner_use_, "global_planner", seed);
+  if (planner_use_) start_fallback(guests, seed);
   if (const PluginUse* const controller = use(experiment_.local_controllers, combination.local_controller))
     start_controllers(guests, *controller, seed);
   if (const PluginUse* const people = use(experiment_.pedestrian_models, combination.pedestrian_model))
@@ -74,9 +75,15 @@ core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
   return lidars_.try_emplace(type.type, type.lidar, variant_.geometry).first->second;
 }
 
-void TrialPlugins::start_planner(Guests& guests, std::uint64_t seed) {
-  planner_ = start(guests, *planner_use_, {}, instance_seed(seed, "global_planner", 0),
-                   nanoseconds(experiment_.limits.planner_time_s));
+TrialPlugins::Seat TrialPlugins::start_planner(Guests& guests, const PluginUse& use, const char* purpose,
+                                               std::uint64_t seed) {
+  return start(guests, use, {}, instance_seed(seed, purpose, 0), nanoseconds(experiment_.limits.planner_time_s));
+}
+
+void TrialPlugins::start_fallback(Guests& guests, std::uint64_t seed) {
+  for (const PluginUse& use : experiment_.fallback_planners)
+    if (use.info.id == variant_.simulation.replan.fallback) fallback_use_ = &use;
+  if (fallback_use_) fallback_ = start_planner(guests, *fallback_use_, "fallback_planner", seed);
 }
 
 void TrialPlugins::start_controllers(Guests& guests, const PluginUse& use, std::uint64_t seed) {
@@ -186,21 +193,30 @@ void TrialPlugins::note_call(std::uint32_t kind, std::uint32_t robot, const Call
 
 Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
   const auto source = [&](const dmrp_planning_problem& problem) {
-    return planner_.instance ? ask_planner(problem, step) : *first_plan_.given;
+    return planner_.instance ? ask_planner(planner_, problem, step) : *first_plan_.given;
   };
-  Plan plan = make_plan(source, planner_use_->info, variant_, world_, in_force,
-                        nanoseconds(experiment_.limits.planner_time_s), step);
+  Plan plan = make(source, planner_use_->info, in_force, step);
   if (!in_force && planner_.instance && first_plan_.on_made) first_plan_.on_made(plan);
+  return plan;
+}
+
+Plan TrialPlugins::plan_by_fallback(const InForce* in_force, std::int64_t step) {
+  const auto source = [&](const dmrp_planning_problem& problem) { return ask_planner(fallback_, problem, step); };
+  return make(source, fallback_use_->info, in_force, step);
+}
+
+Plan TrialPlugins::make(const PlanSource& source, const PluginInfo& info, const InForce* in_force, std::int64_t step) {
+  Plan plan = make_plan(source, info, variant_, world_, in_force, nanoseconds(experiment_.limits.planner_time_s), step);
   if (plan.answered) note_call(DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, {plan.status, plan.planning_ns});
   return plan;
 }
 
-PlannerAnswer TrialPlugins::ask_planner(const dmrp_planning_problem& problem, std::int64_t step) {
-  Guest& guest = *planner_.instance->guest;
+PlannerAnswer TrialPlugins::ask_planner(const Seat& planner, const dmrp_planning_problem& problem, std::int64_t step) {
+  Guest& guest = *planner.instance->guest;
   Arena& arena = guest.begin();
-  const PlanInput* const input = arena.copy(plan_input(arena, guest.output(), *planner_.world, problem));
-  const std::string_view text = call(planner_, {GuestTask::plan, 0, step, problem.time_budget_ns, input});
-  return planner_answer(text, *input, problem.robot_count, planner_.instance->site("plan", step));
+  const PlanInput* const input = arena.copy(plan_input(arena, guest.output(), *planner.world, problem));
+  const std::string_view text = call(planner, {GuestTask::plan, 0, step, problem.time_budget_ns, input});
+  return planner_answer(text, *input, problem.robot_count, planner.instance->site("plan", step));
 }
 
 void TrialPlugins::sense() {
@@ -296,8 +312,7 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     throw PluginFault(kind, site, text);
   };
   if (central_ && status != DMRP_OK)  // the status of a call has been checked
-    fail(fault_kind::abi_breach,
-         fmt::format("gave the status {}, which status.h does not allow a command", status));
+    fail(fault_kind::abi_breach, fmt::format("gave the status {}, which status.h does not allow a command", status));
   if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
     fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
   answers_.push_back({dmrp_twist{command.v_x, command.v_y, command.omega}, status});
@@ -342,6 +357,7 @@ void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
     call(seat, {GuestTask::end_trial, 0, step, step_budget_ns_, input});
   };
   end_of(planner_);
+  end_of(fallback_);
   for (const Controller& controller : controllers_) {
     end_of(controller.seat);
     if (central_) break;

@@ -49,6 +49,10 @@ class TrialPlugins {
   // Makes a plan for the robots, of which there is one at least. `in_force`: the plan in force, nullptr for the first.
   Plan plan(const InForce* in_force, std::int64_t step);
 
+  // The same of the planner that [simulation] replan_fallback names, if it names one.
+  bool has_fallback() const { return fallback_.instance != nullptr; }
+  Plan plan_by_fallback(const InForce* in_force, std::int64_t step);
+
   // Updates the sensors of all active robots; at the beginning of a control tick.
   void sense();
 
@@ -97,7 +101,9 @@ class TrialPlugins {
     std::uint32_t read = 0;      // the sensors that it read in its last call: bits 1u << GuestQuestion::Kind
   };
 
-  void start_planner(Guests& guests, std::uint64_t seed);
+  Seat start_planner(Guests& guests, const PluginUse& use, const char* purpose, std::uint64_t seed);
+  void start_fallback(Guests& guests, std::uint64_t seed);
+  Plan make(const PlanSource& source, const PluginInfo& info, const InForce* in_force, std::int64_t step);
   void start_controllers(Guests& guests, const PluginUse& use, std::uint64_t seed);
   Seat start(Guests& guests, const PluginUse& use, Seat seat, std::uint64_t seed, std::int64_t budget_ns);
   std::string_view call(const Seat& seat, GuestRequest request);
@@ -106,7 +112,7 @@ class TrialPlugins {
   static const void* reading(RobotSensors& sensors, std::uint32_t kind, Arena& arena);
   static SentReadings readings_of(const Controller& controller, Arena& arena);
 
-  PlannerAnswer ask_planner(const dmrp_planning_problem& problem, std::int64_t step);
+  PlannerAnswer ask_planner(const Seat& planner, const dmrp_planning_problem& problem, std::int64_t step);
   void control_some(std::span<const DrivenRobot> robots, std::int64_t step);
   void control_all(std::span<const DrivenRobot> robots, std::int64_t step);
   const dmrp_path_update* update_of(const DrivenRobot& robot, Arena& arena);
@@ -120,8 +126,10 @@ class TrialPlugins {
   const core::World& world_;
   FirstPlan first_plan_;
   const std::int64_t step_budget_ns_;
-  const PluginUse* planner_use_ = nullptr;     // nullptr without robots
-  Seat planner_;                               // no instance where it is not asked
+  const PluginUse* planner_use_ = nullptr;   // nullptr without robots
+  Seat planner_;                             // no instance where it is not asked
+  const PluginUse* fallback_use_ = nullptr;  // nullptr without one
+  Seat fallback_;
   Seat people_;                                // no instance: they stand
   std::map<std::string, core::Lidar> lidars_;  // by type of robot
   core::TraceEncoder* scanned_trace_;          // nullptr if no scans are recorded

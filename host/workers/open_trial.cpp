@@ -78,12 +78,12 @@ void OpenTrial::add_timing(const std::vector<TimingReason>& reasons) {
 
 void OpenTrial::end_by(FaultRecord fault) {
   restart();
+  record_.outcome = outcome_of(fault.kind);
   add_fault(std::move(fault));
-  record_.outcome = trial_outcome::fault;
 }
 
 void OpenTrial::end_without_plan(StoredPlan stored) {
-  record_.outcome = trial_outcome::fault;
+  record_.outcome = outcome_of(stored.fault->kind);
   record_.faults = {std::move(*stored.fault)};
   record_.task = std::move(stored.task);
   add_timing(stored.timing);

@@ -299,7 +299,8 @@ class Supervisor {
 
   // The fault by which the planner gives no first plan; nullptr if there is none.
   const FaultRecord* planner_fault(const TrialRecord& record) const {
-    if (record.outcome != trial_outcome::fault || record.faults.empty()) return nullptr;
+    const bool ended = record.outcome == trial_outcome::fault || record.outcome == trial_outcome::unsupported;
+    if (!ended || record.faults.empty()) return nullptr;
     const FaultRecord& fault = record.faults.back();
     const Combination& combination = combinations_[trial_id(record.id, combinations_.size()).combination];
     const PluginUse& planner = experiment_.global_planners[static_cast<std::size_t>(combination.global_planner)];

@@ -253,7 +253,7 @@ class Worker {
   }
 
   void end_by(Open& trial, const PluginFault& fault, KeptTrace& kept) {
-    trial.done.outcome = trial_outcome::fault;
+    trial.done.outcome = outcome_of(fault.kind());
     kept.finish();
     add_timing(trial);
     sender_.send(typed("fault", record_of(fault)));

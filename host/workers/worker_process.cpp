@@ -32,8 +32,7 @@ nlohmann::json setup_of(const Experiment& experiment) {
   for (const LibraryUse& library : experiment.libraries)
     libraries[library.file.string()] = {{"plugins", nlohmann::json::array()}, {"objects", library.objects}};
   std::set<std::string> added;
-  for (const auto* uses :
-       {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
+  for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
       if (added.insert(use.info.id).second)
         libraries[experiment.libraries[use.library].file.string()]["plugins"].push_back(use.info);

@@ -37,7 +37,7 @@ function function_type(line,   returns, count, parts, i, out) {
   return "Option<unsafe extern \"C\" fn(" out ")" (returns == "void" ? "" : " -> " rust_type(returns)) ">"
 }
 BEGIN {
-  split("uint8_t u8 uint32_t u32 uint64_t u64 int32_t i32 int64_t i64 float f32 double f64 char c_char void c_void", p, " ")
+  split("uint8_t u8 uint16_t u16 uint32_t u32 uint64_t u64 int32_t i32 int64_t i64 float f32 double f64 char c_char void c_void", p, " ")
   for (i = 1; i in p; i += 2) plain[p[i]] = p[i + 1]
   if (check) {
     print "mod dmrp;\nuse std::mem::{size_of, MaybeUninit};\nuse std::ptr::addr_of;\nfn main() {"

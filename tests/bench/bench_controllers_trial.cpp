@@ -134,11 +134,11 @@ class Recording {
     for (std::uint32_t i = 0; i < drivers_.size(); ++i) {
       Driver& driver = *drivers_[i];
       const dmrp_pose& pose = world_.robots()[i].pose;
-      driver.path = host::path_to_drive(plan.paths[i], world_.goals(i), plan.step_duration_ns);
+      driver.path = host::path_to_drive(plan.paths[i], false, world_.goals(i), plan.step_duration_ns);
       driver.progress.set_path(driver.path, {pose.x, pose.y});
       places_[i].path = driver.path;
       const dmrp_path path = path_of(driver.path);
-      const dmrp_path_update update = {sizeof(update), i, 1, &path};
+      const dmrp_path_update update = {sizeof(update), i, 1, &path, 0, 0};
       driver.table.set_path(driver.controller->self(), &update);
     }
   }
@@ -183,7 +183,7 @@ class Recording {
     now.goal_count = static_cast<std::uint32_t>(world_.goals(robot).size());
     now.progress_m = driver.progress.progress_m();
     now.progress_waypoint = driver.progress.waypoint();
-    now.released_waypoint = static_cast<std::uint32_t>(driver.path.size() - 1);
+    now.goal_stride = sizeof(dmrp_goal);
     now.limits = body.limits;
     now.footprint = body.footprint;
     now.agents = frame.agents.data();
@@ -241,7 +241,7 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
     player.read_from(frame);
     if (!frame.path.empty()) {
       const dmrp_path path = path_of(frame.path);
-      const dmrp_path_update update = {sizeof(update), robot, 1, &path};
+      const dmrp_path_update update = {sizeof(update), robot, 1, &path, 0, 0};
       table.set_path(controller.self(), &update);
     }
     dmrp_observation observation = frame.observation;

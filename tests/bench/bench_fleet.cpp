@@ -68,10 +68,10 @@ class Drive {
     }
     if (driven_.empty()) return 0.0;
     const double from_s = bench::processor_s();
-    const auto commands = plugins_.control(driven_, step);
+    const auto answers = plugins_.control(driven_, step);
     const double duration_s = bench::processor_s() - from_s;
     for (std::size_t i = 0; i < driven_.size(); ++i)
-      world_.set_command(driven_[i].robot, commands[i].value_or(dmrp_twist{}));
+      world_.set_command(driven_[i].robot, answers[i].command.value_or(dmrp_twist{}));
     return duration_s;
   }
 

@@ -181,7 +181,7 @@ dmrp::Descriptor descriptor_of(const char* kind) {
   if (has("needs the optional")) descriptor.uses(DMRP_EXT_ANNOTATE);
   if (has("says that it draws in a thread")) descriptor.uses(DMRP_EXT_TIMING);
   if (has("misspelt extension")) descriptor.uses("dmrp.anotate/1");
-  if (has("unknown flag")) descriptor.flags(1u << 20);
+  if (has("unknown flag")) descriptor.flags(1u << 14);
   return descriptor;
 }
 
@@ -193,7 +193,7 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
 
   Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     const double shift = number();
-    if (has("odd status")) return static_cast<Status>(42);
+    if (has("odd status")) return static_cast<Status>(99);
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
       const dmrp::PlanningRobot& robot = problem.robots[i];
       const dmrp::Pose goal = robot.goals->pose;
@@ -239,7 +239,7 @@ class Controller final : public Planted<dmrp::LocalController> {
     if (has("keeps an agent")) command.omega = kept_ ? 0.0 * kept_->radius_m : 0.0;
     kept_ = &now.agents[0];
     if (has("writes to its input")) const_cast<dmrp::Limits&>(now.limits).v_max = 9.0;
-    return has("odd status") ? static_cast<Status>(42) : Status::ok;
+    return has("odd status") ? static_cast<Status>(99) : Status::ok;
   }
 
  private:

@@ -63,19 +63,26 @@ static const dmrp_local_controller whole = {
     .struct_size = sizeof(dmrp_local_controller), .set_path = set_path, .step = step};
 static const dmrp_local_controller without_step = {.struct_size = sizeof(dmrp_local_controller), .set_path = set_path};
 
-static int32_t init(const dmrp_host* host) {
+static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
+  (void)self;
   (void)host;
   return DMRP_OK;
 }
-static void deinit(void) {}
-static uint32_t plugin_count(void) {
+static void deinit(const dmrp_entry* self) {
+  (void)self;
+}
+static uint32_t plugin_count(const dmrp_entry* self) {
+  (void)self;
   return 1;
 }
-static const dmrp_descriptor* descriptor(uint32_t index) {
+static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
+  (void)self;
   return index == 0 ? &descriptor_of_it : NULL;
 }
 
-static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
+static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* params,
+                      dmrp_plugin* out) {
+  (void)self;
   (void)host;
   (void)id;
   (void)params;

@@ -65,4 +65,4 @@ tr -d ' \n' <timing/manifest.json |
 grep -q '"reason":"draws in a thread"' timing/report.html || fail "the report should say why"
 
 DMRP_TEST_FAULT='odd status' "$host" run experiment.toml --debug 0 >debugged 2>/dev/null
-(($? == 1)) && grep -q 'abi_breach: test.check.controller: step().*42' debugged || fail "a fault: $(cat debugged)"
+(($? == 1)) && grep -q 'abi_breach: test.check.controller: step().*99' debugged || fail "a fault: $(cat debugged)"

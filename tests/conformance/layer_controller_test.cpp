@@ -70,7 +70,7 @@ TEST_CASE("no exception of a controller gets out, whatever it is and wherever it
   check_outcomes("sample.controller", true, [&](const Sample& s) { return s.start(); });
   const PathAlongX path(2);
   const dmrp_path c_path = path.c();
-  const dmrp_path_update update = {sizeof(update), 0, 1, &c_path};
+  const dmrp_path_update update = {sizeof(update), 0, 1, &c_path, 0, 0};
   check_outcomes("sample.controller", false,
                  [&](const Sample& s) { return s.as<dmrp_local_controller>().set_path(s.c.self, &update); });
   const Scene scene;
@@ -90,9 +90,10 @@ TEST_CASE("a controller sees its path and observation, and its command comes bac
 
   const PathAlongX path(3);
   const dmrp_path c_path = path.c();
-  const dmrp_path_update update = {sizeof(update), 4, 6, &c_path};
+  const dmrp_path_update update = {sizeof(update), 4, 6, &c_path, 0, 0};
   REQUIRE(table.set_path(sample.c.self, &update) == DMRP_OK);
   CHECK(seen().numbers == std::vector<double>{6.0, 0.0, 1.0, 2.0});
+  CHECK(seen().texts == std::vector<std::string>{"whole", "is another"});
 
   const Scene scene;
   // a newer host: the plugin must not write the additional fields of its command
@@ -105,6 +106,26 @@ TEST_CASE("a controller sees its path and observation, and its command comes bac
   CHECK(command.known.status == DMRP_OK);
   CHECK(command.known.struct_size == sizeof(command));
   CHECK(command.unknown == 0x5555555555555555u);
+}
+
+TEST_CASE("controllers hear that a path is partial, and that it continues the one before") {
+  const PathAlongX path(3);
+  dmrp_path c_path = path.c();
+  for (const char* id : {"sample.controller", "sample.central"})
+    for (const std::uint32_t path_flags : {0u, DMRP_PATH_PARTIAL, 0xfffffffeu})
+      for (const std::uint32_t update_flags : {0u, DMRP_PATH_CONTINUES, 0xfffffffeu}) {  // others are of later versions
+        const Sample sample(id, "nothing");
+        c_path.flags = path_flags;
+        const dmrp_path_update update = {sizeof(update), 0, 1, &c_path, update_flags, 0};
+        REQUIRE(sample.as<dmrp_local_controller>().set_path(sample.c.self, &update) == DMRP_OK);
+        CHECK(seen().texts ==
+              std::vector<std::string>{path_flags == DMRP_PATH_PARTIAL ? "partial" : "whole",
+                                       update_flags == DMRP_PATH_CONTINUES ? "continues" : "is another"});
+      }
+}
+
+TEST_CASE("a plugin says that a trial is not for it") {
+  CHECK(Sample("sample.controller", "unsupported").start() == DMRP_UNSUPPORTED);
 }
 
 TEST_CASE("a controller hears how its trial ended") {
@@ -135,7 +156,7 @@ TEST_CASE("no exception of a central controller gets out") {
                  [&](const Sample& s) { return s.as<dmrp_local_controller>().step_all(s.c.self, &fleet.c); });
   const PathAlongX path(2);
   const dmrp_path c_path = path.c();
-  const dmrp_path_update update = {sizeof(update), 1, 1, &c_path};
+  const dmrp_path_update update = {sizeof(update), 1, 1, &c_path, 0, 0};
   check_outcomes("sample.central", false,
                  [&](const Sample& s) { return s.as<dmrp_local_controller>().set_path(s.c.self, &update); });
 }
@@ -147,7 +168,7 @@ TEST_CASE("a central controller drives each robot by its own observation") {
 
   const PathAlongX path(5);
   const dmrp_path c_path = path.c();
-  const dmrp_path_update update = {sizeof(update), 7, 2, &c_path};
+  const dmrp_path_update update = {sizeof(update), 7, 2, &c_path, 0, 0};
   REQUIRE(table.set_path(sample.c.self, &update) == DMRP_OK);
   CHECK(seen().numbers == std::vector<double>{7.0, 2.0, 4.0});
 

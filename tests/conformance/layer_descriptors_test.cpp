@@ -18,6 +18,14 @@ const dmrp_descriptor& descriptor(const std::string& id) {
   throw std::runtime_error("no descriptor of " + id);
 }
 
+template <class Traits>
+const Traits& traits(const dmrp_descriptor& descriptor) {
+  REQUIRE(descriptor.traits);
+  const auto& its = *static_cast<const Traits*>(descriptor.traits);
+  REQUIRE(its.struct_size == sizeof(Traits));
+  return its;
+}
+
 const dmrp_param_spec& spec(const std::string& key) {
   const dmrp_descriptor& d = descriptor("sample.controller");
   for (std::uint32_t i = 0; i < d.param_count; ++i) {
@@ -45,10 +53,11 @@ TEST_CASE("the entry says what it was built with and lists the plugins in their 
   CHECK(dmrp_entry_v1.abi_minor == DMRP_ABI_MINOR);
   CHECK(dmrp_entry_v1.abi_draft == DMRP_ABI_DRAFT);
   CHECK(dmrp_entry_v1.min_host_minor == 0);
-  REQUIRE(dmrp_entry_v1.plugin_count(&dmrp_entry_v1) == 6);
+  REQUIRE(dmrp_entry_v1.plugin_count(&dmrp_entry_v1) == 7);
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0)->id == std::string("sample.controller"));
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 5)->id == std::string("sample.unmakeable"));
-  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 6) == nullptr);
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 6)->id == std::string("sample.assigning"));
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 7) == nullptr);
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0) == dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0));  // static data
 }
 
@@ -65,29 +74,32 @@ TEST_CASE("a descriptor carries all that describe() said") {
   CHECK(list(controller.needed, controller.needed_count) == std::vector<std::string>{"dmrp.lidar/1"});
   CHECK(list(controller.uses, controller.uses_count) ==
         std::vector<std::string>{"dmrp.local_costmap/1", "dmrp.annotate/1"});
-  CHECK(controller.value_count == 0);
-  CHECK(controller.connectivity == DMRP_CONNECTIVITY_NONE);
   CHECK(controller.flags == (DMRP_FLAG_BACKWARDS | DMRP_FLAG_PROCESSES));
-  CHECK(controller.kinematics == 1u << DMRP_KINEMATICS_HOLONOMIC);
+  CHECK(traits<dmrp_controller_traits>(controller).kinematics == 1u << DMRP_KINEMATICS_HOLONOMIC);
 
   const dmrp_descriptor& central = descriptor("sample.central");
   CHECK(central.kind == DMRP_KIND_LOCAL_CONTROLLER);
   CHECK(central.flags == DMRP_FLAG_CENTRAL);
-  CHECK(central.kinematics == 0);
+  CHECK(traits<dmrp_controller_traits>(central).kinematics == 0);
 
   const dmrp_descriptor& planner = descriptor("sample.planner");
   CHECK(planner.kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(planner.connectivity == DMRP_CONNECTIVITY_8);
+  CHECK(traits<dmrp_planner_traits>(planner).connectivity == DMRP_CONNECTIVITY_8);
   CHECK(planner.flags == DMRP_FLAG_UNCOORDINATED);
   CHECK(planner.vendor == std::string());  // never NULL
+  const dmrp_descriptor& assigning = descriptor("sample.assigning");
+  CHECK(assigning.flags == DMRP_FLAG_ASSIGNS);
+  CHECK(traits<dmrp_planner_traits>(assigning).connectivity == DMRP_CONNECTIVITY_4);
   CHECK(descriptor("sample.pedestrian").kind == DMRP_KIND_PEDESTRIAN_MODEL);
+  CHECK(descriptor("sample.pedestrian").traits == nullptr);
 
   const dmrp_descriptor& metric = descriptor("sample.metric");
   CHECK(metric.kind == DMRP_KIND_METRIC);
-  CHECK(metric.channels == (DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS));
-  REQUIRE(metric.value_count == 3);
+  const auto& measured = traits<dmrp_metric_traits>(metric);
+  CHECK(measured.channels == (DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS));
+  REQUIRE(measured.value_count == 3);
   const auto at = [&](std::uint32_t i) {
-    return *DMRP_AT(dmrp_metric_value_spec, metric.values, metric.value_stride, i);
+    return *DMRP_AT(dmrp_metric_value_spec, measured.values, measured.value_stride, i);
   };
   CHECK(at(0).name == std::string("plain"));
   CHECK(at(0).unit == std::string("m"));
@@ -175,7 +187,7 @@ TEST_CASE("create() brings values of every type into the members, what it leaves
   RecordingHost host;
   dmrp_plugin plugin{};
   plugin.struct_size = sizeof(plugin);
-  REQUIRE(dmrp_entry_v1.create(&host.c, "sample.controller", params.c(), &plugin) == DMRP_OK);
+  REQUIRE(dmrp_entry_v1.create(&dmrp_entry_v1, &host.c, "sample.controller", params.c(), &plugin) == DMRP_OK);
   text.assign("XXXX");
 
   dmrp_world world{};
@@ -200,7 +212,7 @@ TEST_CASE("a value that does not fit into a Param<int> is refused with its key")
     RecordingHost host;
     dmrp_plugin plugin{};
     plugin.struct_size = sizeof(plugin);
-    CHECK(dmrp_entry_v1.create(&host.c, "sample.controller", params.c(), &plugin) == DMRP_ERROR);
+    CHECK(dmrp_entry_v1.create(&dmrp_entry_v1, &host.c, "sample.controller", params.c(), &plugin) == DMRP_ERROR);
     CHECK(host.error == "small does not fit into an int");
     CHECK(plugin.self == nullptr);
     CHECK(seen().alive == 0);
@@ -230,7 +242,9 @@ TEST_CASE("create() answers what it cannot make with a status and a text") {
   dmrp_plugin plugin{};
   plugin.struct_size = sizeof(plugin);
   const ParamList params({text_value("does", "nothing")});
-  const auto create = [&](const char* id) { return dmrp_entry_v1.create(&host.c, id, params.c(), &plugin); };
+  const auto create = [&](const char* id) {
+    return dmrp_entry_v1.create(&dmrp_entry_v1, &host.c, id, params.c(), &plugin);
+  };
 
   CHECK(create("sample.other") == DMRP_ERROR);
   CHECK(host.error == "no plugin of that id in this library");

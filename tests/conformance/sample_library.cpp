@@ -26,6 +26,7 @@ dmrp::Status leave(const std::string& does) {
   if (does == "throw number") throw 42;
   if (does == "warning") return dmrp::Status::warning;
   if (does == "no solution") return dmrp::Status::no_solution;
+  if (does == "unsupported") return dmrp::Status::unsupported;
   return dmrp::Status::ok;
 }
 
@@ -91,6 +92,7 @@ class SampleController final : public dmrp::LocalController {
   void set_path(dmrp::Path path, std::uint64_t revision) override {
     seen().numbers = {static_cast<double>(revision)};
     for (const dmrp::Waypoint& waypoint : path) seen().numbers.push_back(waypoint.x);
+    seen().texts = {path.is_partial() ? "partial" : "whole", path.continues() ? "continues" : "is another"};
     leave(does);
   }
 
@@ -143,6 +145,7 @@ class SampleCentral final : public dmrp::CentralController {
 
   void set_path(std::uint32_t robot, dmrp::Path path, std::uint64_t revision) override {
     seen().numbers = {1.0 * robot, static_cast<double>(revision), path.back().x};
+    seen().texts = {path.is_partial() ? "partial" : "whole", path.continues() ? "continues" : "is another"};
     leave(does);
   }
   dmrp::Status step(dmrp::Fleet& fleet) override {
@@ -185,9 +188,34 @@ class SamplePlanner final : public dmrp::GlobalPlanner {
       std::vector<dmrp::Waypoint> path = {{problem.robots[i].start.x, problem.robots[i].start.y, 0.0, 0, 0, 0}};
       for (const dmrp::Goal& goal : dmrp::goals(problem.robots[i]))
         path.push_back({goal.pose.x, goal.pose.y, 0.0, 1, 0, 0});
-      sink.path(i, path);
+      sink.path(i, path, does == "give partial paths");
     }
     sink.statistic("cost", 3.0);
+    return leave(does);
+  }
+};
+
+// Gives the last task to robot 0.
+class SampleAssigning final : public dmrp::AssigningPlanner {
+ public:
+  static dmrp::Descriptor describe() {
+    return dmrp::Descriptor("sample.assigning", "Sample assigning", "1.0.0").connectivity(DMRP_CONNECTIVITY_4);
+  }
+  dmrp::Param<std::string> does = param("does", "nothing");
+
+  dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink&) override {
+    seen().numbers = {1.0 * problem.window_steps, dmrp::seconds(problem.committed_until_ns),
+                      dmrp::seconds(host().budget_left_ns())};
+    return leave(does);
+  }
+  dmrp::Status assign(const dmrp::Assignment& problem, dmrp::AssignmentSink& sink) override {
+    seen().numbers = {dmrp::seconds(problem.now_ns), 1.0 * problem.grid.width,
+                      static_cast<double>(problem.robots.size())};
+    for (const dmrp::Task& task : problem.tasks) {
+      seen().numbers.push_back(static_cast<double>(task.id));
+      for (const dmrp::Goal& errand : dmrp::errands(task)) seen().numbers.push_back(errand.pose.x);
+    }
+    sink.give(0, problem.tasks[problem.tasks.size() - 1].id);
     return leave(does);
   }
 };
@@ -227,6 +255,10 @@ class SampleMetric final : public dmrp::Metric {
     for (const dmrp::Person& person : sample.people) seen().numbers.push_back(person.position.x);
     for (const dmrp::Contact& contact : sample.contacts) seen().numbers.push_back(contact.depth_m);
     for (const dmrp::Call& call : sample.calls) seen().numbers.push_back(static_cast<double>(call.duration_ns));
+    for (const dmrp::RobotEvent& event : sample.events) seen().numbers.push_back(1.0 * event.detail);
+    for (const dmrp::Route& route : sample.routes)
+      for (const dmrp::Waypoint& waypoint : dmrp::Path(*route.path)) seen().numbers.push_back(waypoint.x);
+    for (const dmrp::TaskEvent& event : sample.task_events) seen().numbers.push_back(static_cast<double>(event.task));
     leave(does);
   }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {
@@ -254,6 +286,7 @@ RecordingHost::RecordingHost() {
     static_cast<RecordingHost*>(host->context)->error = text;
   };
   c.should_stop = [](const dmrp_host* host) { return static_cast<RecordingHost*>(host->context)->stop; };
+  c.budget_left_ns = [](const dmrp_host* host) { return static_cast<RecordingHost*>(host->context)->budget_left_ns; };
   c.library_path = "/plugins/libsample.so";
   c.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
     const auto& offered = static_cast<RecordingHost*>(host->context)->offers;
@@ -281,7 +314,8 @@ dmrp_param_value text_value(const char* key, const char* text) {
 Sample::Sample(const char* id, const char* does) {
   const ParamList params({text_value("does", does)});
   c.struct_size = sizeof(c);
-  if (dmrp_entry_v1.create(&host.c, id, params.c(), &c) != DMRP_OK) throw std::runtime_error(host.error);
+  if (dmrp_entry_v1.create(&dmrp_entry_v1, &host.c, id, params.c(), &c) != DMRP_OK)
+    throw std::runtime_error(host.error);
 }
 
 std::int32_t Sample::start(std::uint64_t seed, std::int32_t robot) const {
@@ -297,4 +331,5 @@ std::int32_t Sample::start(std::uint64_t seed, std::int32_t robot) const {
 
 using namespace dmrp::test;
 
-DMRP_PLUGINS(SampleController, SampleCentral, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade)
+DMRP_PLUGINS(SampleController, SampleCentral, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade,
+             SampleAssigning)

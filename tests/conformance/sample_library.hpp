@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// As exported by a library. Holds sample.controller, sample.central, sample.planner, sample.pedestrian, sample.metric
-// and sample.unmakeable; their parameter `does` determines their calls: see sample_library.cpp.
+// As exported by a library. Holds sample.controller, sample.central, sample.planner, sample.pedestrian, sample.metric,
+// sample.unmakeable and sample.assigning; their parameter `does` determines their calls: see sample_library.cpp.
 extern "C" const dmrp_entry dmrp_entry_v1;
 
 // An extension of the tests' own, which the C++ layer does not know.
@@ -43,6 +43,7 @@ class RecordingHost {
   std::vector<std::string> log;  // "LEVEL text"
   std::string error;             // the last text of set_error, "" if there was none
   std::int32_t stop = 0;
+  std::int64_t budget_left_ns = 0;
   std::map<std::string, const void*> offers;
 };
 

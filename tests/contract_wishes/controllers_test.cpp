@@ -115,7 +115,7 @@ TEST_CASE("a library without its weights says which file it misses") {
 
 TEST_CASE("a controller drives each robot within what its kinematics allow") {
   Library library(ANY_DRIVE);
-  CHECK(library.descriptor().kinematics ==
+  CHECK(static_cast<const dmrp_controller_traits*>(library.descriptor().traits)->kinematics ==
         (1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC | 1u << DMRP_KINEMATICS_ACKERMANN));
   World& world = open_world(3);
   world.robots[1].known.kinematics = DMRP_KINEMATICS_HOLONOMIC;
@@ -145,7 +145,8 @@ TEST_CASE("a controller drives each robot within what its kinematics allow") {
         const double angle = std::atan(command.omega * car.wheelbase_m / command.v_x);
         CHECK(std::abs(angle) <= car.steering_max + 1e-9);
         CHECK(std::abs(angle - steering) <= car.steering_rate_max * dt_s + 1e-9);
-        steering = angle;
+        steering = i == 20 ? -0.3 : angle;  // a stone turns the wheels: the controller goes by what is measured
+        scene.observation.known.steering_angle = steering;
       }
       drive(scene, command, 6.0);
     }
@@ -242,7 +243,7 @@ TEST_CASE("a controller uses the velocities at waypoints where the host gives th
   for (int i = 0; i <= 3; ++i)
     waypoints.push_back({{1.0 * i, 0.0, 0.0, std::int64_t{i} * 2'000'000'000, 0, 0}, i == 3 ? 0.0 : 0.3 * i});
   dmrp_path path = {sizeof(path), 4, sizeof(waypoints.front()), 0, &waypoints.front().known};
-  dmrp_path_update update = {sizeof(update), 0, 1, &path};
+  dmrp_path_update update = {sizeof(update), 0, 1, &path, 0, 0};
   const auto& table = controller.as<dmrp_local_controller>();
   REQUIRE(table.set_path(controller.c.self, &update) == DMRP_OK);
   CHECK(step(controller, scene).v_x == Approx(0.3));  // at the next waypoint

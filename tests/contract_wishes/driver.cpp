@@ -20,6 +20,7 @@ Host::Host(std::string library_path) : library_path_(std::move(library_path)) {
   };
   c.set_error = [](const dmrp_host* host, const char* text) { static_cast<Host*>(host->context)->error = text; };
   c.should_stop = [](const dmrp_host*) { return std::int32_t{0}; };
+  c.budget_left_ns = [](const dmrp_host*) { return std::int64_t{0}; };
   c.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
     const auto& offered = static_cast<Host*>(host->context)->offers;
     const auto found = offered.find(id);
@@ -65,7 +66,8 @@ World::World(const std::vector<std::string>& map, std::size_t count) : robot_dat
            {0.0, 0.0},
            free_.data(),
            edges_.data(),
-           clearance_.data()};
+           clearance_.data(),
+           nullptr};
   for (std::size_t i = 0; i < count; ++i) {
     robot_data[i].limits.struct_size = sizeof(dmrp_limits);
     robot_data[i].limits.v_max = 1.0;
@@ -122,7 +124,8 @@ Instance::Instance(Library& library, const std::map<std::string, double>& number
   const dmrp_params params = {sizeof(params), count_of(values), sizeof(Longer<dmrp_param_value>), 0,
                               values.empty() ? nullptr : &values.front().known};
   c.struct_size = sizeof(c);
-  if (library.entry().create(&host.c, descriptor.id, &params, &c) != DMRP_OK) throw std::runtime_error(host.error);
+  if (library.entry().create(&library.entry(), &host.c, descriptor.id, &params, &c) != DMRP_OK)
+    throw std::runtime_error(host.error);
 }
 
 Instance::~Instance() {
@@ -140,7 +143,7 @@ std::int32_t Instance::set_path(std::uint32_t robot, const std::vector<dmrp_vec2
     waypoints.push_back({{points[i].x, points[i].y, std::numeric_limits<double>::quiet_NaN(),
                           static_cast<std::int64_t>(i) * 1'000'000'000, goal_index, 0}});
   const dmrp_path path = {sizeof(path), count_of(waypoints), sizeof(waypoints.front()), 0, &waypoints.front().known};
-  const dmrp_path_update update = {sizeof(update), robot, ++revision_, &path};
+  const dmrp_path_update update = {sizeof(update), robot, ++revision_, &path, 0, 0};
   return as<dmrp_local_controller>().set_path(c.self, &update);
 }
 
@@ -148,7 +151,7 @@ Scene::Scene(const World::RobotData& robot) : limits(robot.limits), footprint(ro
   observation.known.struct_size = sizeof(observation);
   observation.known.dt_ns = 100'000'000;
   observation.known.goal_count = 1;
-  observation.known.released_waypoint = 1'000'000;
+  observation.known.goal_stride = sizeof(dmrp_goal);
 }
 
 const dmrp_observation* Scene::c() {

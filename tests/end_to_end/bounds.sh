@@ -12,6 +12,7 @@ trials = 8
 plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_metrics.so"]
 [[scenario]]
 use = "$here/worlds/parked/scenario.toml"
+start_jitter = { position_m = 0.01 }  # each repetition has a task of its own
 [[global_planner]]
 use = "dmrp.planner.cbs"
 [[local_controller]]

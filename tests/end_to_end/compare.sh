@@ -5,12 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 before=$scratch/before
 after=$scratch/after
-expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 8 --out "$before"
+sed 's/^use = "crossing"$/&\nrobots = 2\ntasks = { drawn = 40 }/' "$here/crossing.toml" >"$scratch/tasks.toml"
+expect_status 0 "$host" "$scratch/tasks.toml" --quiet --trials 40 --out "$before"
 cp -r "$before" "$after"
 
 expect_status 0 "$host" compare "$before" "$after" --fail-if "success < -0.02"
-grep -Eq "^32 trials in both$" "$scratch/stdout" || fail "not all trials are matched: $(cat "$scratch/stdout")"
-grep -Eq "success +32 .* 0.000 \[0.000, 0.000\] +=" "$scratch/stdout" || fail "equal runs differ: $(cat "$scratch/stdout")"
+grep -Eq "^160 trials in both$" "$scratch/stdout" || fail "not all trials are matched: $(cat "$scratch/stdout")"
+grep -Eq "success +160 +40 .* 0.000 \[-0.[0-9]+, \+0.[0-9]+\] +=" "$scratch/stdout" || fail "equal runs differ: $(cat "$scratch/stdout")"
 
 # fewer arrive in every trial
 forge "$after" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
@@ -23,13 +24,13 @@ query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE
   metric = 'success' AND subject_kind = 'system'"
 expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 
-# of three seeds nothing is estimated
+# three crowds on one task are three observations: no p
 expect_status 0 "$host" "$here/crossing.toml" --quiet --trials 3 --out "$scratch/few"
 cp -r "$scratch/few" "$scratch/changed"
 forge "$scratch/changed" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
 expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric success
-grep -Eq "success +12 .* 0.100 +too few \(3 seeds\) +–$" "$scratch/stdout" ||
-  fail "a difference of three seeds is printed: $(cat "$scratch/stdout")"
+grep -Eq "success +12 +3 .* 0.100 .* –$" "$scratch/stdout" ||
+  fail "three observations have a p: $(cat "$scratch/stdout")"
 
 refused() {
   expect_status 2 "$host" compare "${@:2}"

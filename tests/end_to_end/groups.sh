@@ -16,7 +16,8 @@ expect_status 0 "$host" "$example" --quiet --trials 1 --jobs 2 --out "$scratch/t
 [[ $(query "$run" "SELECT sum(value) > 0 FROM value WHERE metric = 'group_intrusions' AND subject_kind = 'system'") == 1 ]] ||
   fail "no robot ever came between companions"
 [[ -z $(query "$run" "SELECT metric FROM value WHERE value IS NULL AND subject_kind = 'system'
-  AND metric NOT IN ('completion_time', 'person_standoff', 'first_cause', 'culprit', 'held_behind', 'impact_speed')") ]] ||
+  AND metric NOT IN ('completion_time', 'person_standoff', 'first_cause', 'culprit', 'held_behind',
+    'after_standstill', 'impact_speed')") ]] ||
   fail "a value is undefined that should not be"
 
 expect_status 0 "$host" evaluate "$run" --csv "$scratch/values.csv"

@@ -96,7 +96,7 @@ expect_fault crash crash "^test.planner.faulty: plan\(\): crashed \(signal 11, S
 expect_fault abort crash "signal 6"
 expect_fault exit exit "ended the process with status 0"
 expect_fault throw error_status "thrown on purpose"
-expect_fault unknown_status abi_breach "unknown status 42"
+expect_fault unknown_status abi_breach "unknown status 99"
 expect_fault rounding abi_breach "floating-point control"
 expect_fault hang hang "plan\(\): did not stop when its time of 0.2 s was over" --time-limit 0.2
 expect_fault conflict bad_output "vertex conflict of robots 0 and 1 at step 3"

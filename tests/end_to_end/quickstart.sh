@@ -10,7 +10,7 @@ grep -q "$scratch/run" "$scratch/stdout" || fail "the run directory is not named
 
 # But for measured times, the progress, which is a bar on a terminal, and the name of the run directory.
 lasting() {
-  sed -E '1s/ trials .*/ trials/; /^  [0-9]+\/[0-9]+  /d; s/^(  CBS \+ DWA( +[0-9.]+){3} +)[0-9.]+/\1-/
+  sed -E '1s/ trials .*/ trials/; /^  [0-9]+\/[0-9]+  /d; s/^(  CBS \+ DWA +[0-9.]+ \[[^]]*\]( +[0-9.]+){2} +)[0-9.]+/\1-/
     s/^  [^ ]+( +report.html)/  -\1/'
 }
 shown=$(sed -n '/^quickstart · /,/^```/p' "$source_dir/README.md" | grep -v '^```')
@@ -30,11 +30,11 @@ arrived=$(query "$scratch/run" "SELECT sum(value) FROM value WHERE metric = 'suc
   fail "a robot stood for 15 s with nobody in its way"
 
 # every metric has a system value for every trial; only values of robots that did not arrive, of those that failed, of
-# contacts, and of groups of people, which the mall has not, may be undefined
+# contacts, of standstills, and of groups of people, which the mall has not, may be undefined
 [[ -z $(query "$scratch/run" "SELECT t.id, m.name FROM trial t, metric m WHERE NOT EXISTS (SELECT 1 FROM value v
    WHERE v.trial_id = t.id AND v.metric = m.name AND v.subject_kind = 'system')") ]] || fail "a metric has no value"
 [[ -z $(query "$scratch/run" "SELECT metric FROM value WHERE value IS NULL AND metric NOT IN ('completion_time', 'person_standoff',
-   'first_cause', 'culprit', 'held_behind', 'impact_speed')
+   'first_cause', 'culprit', 'held_behind', 'after_standstill', 'impact_speed')
    AND metric NOT LIKE 'group_%'") ]] ||
   fail "a value is undefined that should not be"
 

@@ -23,7 +23,7 @@ seeds() {
   case $1 in
     experiment) printf '%s\n' "$tree"/examples/*.toml "$tree"/tests/{end_to_end,same_bits}/*.toml ;;
     scenario) printf '%s\n' "$tree"/scenarios/*/scenario.toml "$tree"/tests/end_to_end/worlds/*/scenario.toml ;;
-    mcap) printf '%s\n' "$tree"/tests/same_bits/v1_trial/trial.mcap ;;
+    mcap) printf '%s\n' "$tree"/tests/same_bits/small_trial/trial.mcap ;;
   esac
 }
 

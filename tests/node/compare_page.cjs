@@ -22,7 +22,9 @@ const scratch = scratch_folder();
 
 // Two runs of the crossing; in the second, robots of pure pursuit slow down long before their goals, and more arrive.
 function compared() {
-  const crossing = fs.readFileSync(path.join(source, 'tests/end_to_end/crossing.toml'), 'utf8');
+  const crossing = fs
+    .readFileSync(path.join(source, 'tests/end_to_end/crossing.toml'), 'utf8')
+    .replace('use = "crossing"', '$&\nstart_jitter = { position_m = 0.02 }');
   const env = {DMRP_SCENARIO_PATH: path.join(source, 'tests/end_to_end/worlds')};
   const run = (name, text) => {
     const experiment = path.join(scratch, `${name}.toml`);
@@ -98,17 +100,17 @@ const tests = {
     await close(opened);
   },
 
-  async 'cautions where seeds are few or trials have no partner'(browser) {
+  async 'cautions where tasks are few or trials have no partner'(browser) {
     const few = with_data(page_of_both, (data) => {
-      for (const one of data.runs[0].differences) Object.assign(one, {seeds: 3, p: 0.25, p_holm: 1, difference: 0.123});
+      for (const one of data.runs[0].differences) Object.assign(one, {tasks: 3, p: null, p_holm: null, equal: false, difference: 0.123});
       data.runs[0].only_before = 2;
     });
     const opened = await opened_page(browser, few);
     const verdict = await opened.page.locator('.verdict').textContent();
     assert.match(verdict, /No metric can be told apart/);
-    assert.match(verdict, /3 seeds: no difference can be told apart with fewer than 6/);
+    assert.match(verdict, /3 tasks: no difference can be told apart with fewer than 5/);
     for (const row of await opened.page.locator('#run-0 tbody tr').all())
-      assert.match((await cells(row)).slice(2, 4).join(), /^too few \(3 seeds\),—$/);
+      assert.match((await cells(row)).slice(3, 5).join(), /^—,3$/);
     assert.match(verdict, /2 trials without a partner \(2 before, 0 after\)/);
     await close(opened);
   },

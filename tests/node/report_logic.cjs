@@ -98,6 +98,7 @@ function sample() {
       {scenario: 'office', robots: 2, global_planner: 'P', local_controller: '', pedestrian_model: '', metric: 'time'},
     ],
     failures_line: '',
+    standstills_line: '',
     failures: [],
     answers: [],
     replays: [],
@@ -305,10 +306,10 @@ const tests = {
     same([all, {cells: [cell]}].map((one) => answer.scope_words(data, one)), ['all', 'mall']);
     data.answers.push({cells: [{...cell, robots: 20}]});
     same(answer.scope_words(data, {cells: [cell]}), 'mall · 2 robots');
-    const against = {observations: 20, mean: -0.25, low: -0.4, high: -0.1, p_holm: 0.01};
+    const against = {tasks: 20, mean: -0.25, low: -0.4, high: -0.1, equal: false};
     same(answer.difference_words(against), '\u22120.25 [\u22120.40, \u22120.10]');
-    same(answer.difference_words({...against, mean: 0, p_holm: null}), '=');
-    same(answer.difference_words({...against, observations: 0}), '—');
+    same(answer.difference_words({...against, mean: 0, equal: true}), '=');
+    same(answer.difference_words({...against, tasks: 0}), '—');
   },
   'a threshold opens the trials of its level, failed ones first'() {
     const result = {global_planner: 'P', local_controller: 'C', pedestrian_model: '', means: [0, 0.5, 1]};
@@ -368,6 +369,9 @@ const tests = {
       verdict.lines(data).map((line) => line.text),
       ['1 robot of 32 did not arrive, in 1 trial: 1 deadlock.', '16 trials without a fault, every one repeatable.']
     );
+    data.standstills_line = 'Of 6 robots at standstills that ran on to the time limit, 1 arrived after all';
+    assert.ok(verdict.lines(data).some((line) => line.text === `${data.standstills_line}.`));
+    data.standstills_line = '';
     data.trials.repeatable[3] = false;
     data.run.trials_planned = 20;
     data.faults = [{trial: 4}, {trial: 4}];

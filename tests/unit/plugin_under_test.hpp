@@ -39,6 +39,7 @@ class FakeHost {
   std::vector<LogLine> log;
   std::vector<std::string> errors;  // texts of set_error, in order
   std::function<bool()> should_stop;
+  int64_t budget_left_ns = 0;
   std::function<const void*(const std::string& id)> get_extension;
   std::map<std::string, const void*> extensions;  // looked up where there is no hook
 
@@ -55,6 +56,7 @@ class FakeHost {
     c_.should_stop = [](const dmrp_host* host) -> int32_t {
       return of(host).should_stop && of(host).should_stop() ? 1 : 0;
     };
+    c_.budget_left_ns = [](const dmrp_host* host) -> int64_t { return of(host).budget_left_ns; };
     c_.get_extension = [](const dmrp_host* host, const char* id) -> const void* {
       FakeHost& fake = of(host);
       if (!fake.declares(id)) return nullptr;
@@ -81,6 +83,12 @@ class FakeHost {
   const dmrp_descriptor* descriptor_;
   dmrp_host c_{};
 };
+
+// What a descriptor says of its plugin's kind: traits_of<dmrp_metric_traits>(descriptor).values.
+template <class Traits>
+const Traits& traits_of(const dmrp_descriptor& descriptor) {
+  return *static_cast<const Traits*>(descriptor.traits);
+}
 
 // A loaded plugin library; stays loaded until the program ends.
 class PluginLibrary {

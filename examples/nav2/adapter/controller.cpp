@@ -233,14 +233,13 @@ void Controller::warn_of_unread_parameters() {
       log(dmrp::LogLevel::warning, place + ": " + class_name_ + " does not read '" + name + "'");
 }
 
-// nav2's server hands over a plan for each goal, and a new one when the plan has changed.
+// nav2's server hands over a plan for each goal, and a new one when the path has changed.
 void Controller::follow_plan(const dmrp::Observation& now) {
-  const PlanKey key{revision_, now.goal_index, course_.end(now.goal_index, now.released_waypoint)};
+  const PlanKey key{revision_, now.goal_index};
   if (key == plan_key_) return;
   if (key.goal_index != plan_key_.goal_index) controller_->reset();
-  const bool leads_to_goal = key.end == course_.end(now.goal_index, std::numeric_limits<std::uint32_t>::max());
-  const double heading = leads_to_goal ? now.goal.pose.theta : std::numeric_limits<double>::quiet_NaN();
-  auto plan = course_.plan(now.pose, now.progress_m, key.end, heading);
+  const double heading = course_.leads_to_goal() ? now.goal.pose.theta : std::numeric_limits<double>::quiet_NaN();
+  auto plan = course_.plan(now.pose, now.progress_m, heading);
   plan.header.stamp = environment_->node()->now();
   plan_end_ = plan.poses.back().pose;
   goal_checker_.set(now.goal);

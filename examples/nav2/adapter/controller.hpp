@@ -33,10 +33,7 @@ class Controller : public dmrp::LocalController {
   struct PlanKey {
     std::uint64_t revision = 0;
     std::uint32_t goal_index = 0;
-    std::size_t end = 0;
-    bool operator==(const PlanKey& b) const {
-      return revision == b.revision && goal_index == b.goal_index && end == b.end;
-    }
+    bool operator==(const PlanKey& b) const { return revision == b.revision && goal_index == b.goal_index; }
   };
 
   std::string published_file() const;

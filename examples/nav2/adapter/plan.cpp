@@ -26,26 +26,20 @@ void append(nav_msgs::msg::Path& plan, const dmrp::Vec2& point, double heading) 
 void Course::set(dmrp::Path path) {
   waypoints_.assign(path.begin(), path.end());
   dmrp::toolkit::arc_lengths(waypoints_, arcs_m_);
-}
-
-std::size_t Course::end(std::uint32_t goal_index, std::uint32_t released_waypoint) const {
-  std::size_t goal = 0;
-  for (std::size_t i = 0; i < waypoints_.size(); ++i)
-    if (waypoints_[i].goal_index <= goal_index) goal = i;
-  return std::min<std::size_t>(goal, released_waypoint);
+  leads_to_goal_ = !path.is_partial();
 }
 
 dmrp::Vec2 Course::point(std::size_t waypoint) const {
   return {waypoints_[waypoint].x, waypoints_[waypoint].y};
 }
 
-nav_msgs::msg::Path Course::plan(const dmrp::Pose& robot, double progress_m, std::size_t end, double heading) const {
+nav_msgs::msg::Path Course::plan(const dmrp::Pose& robot, double progress_m, double heading) const {
   std::vector<dmrp::Vec2> corners;
-  const double from_m = std::min(progress_m, arcs_m_[end]);
+  const double from_m = std::min(progress_m, arcs_m_.back());
   // nav2's plans begin at the robot; a path here may begin ahead of it.
   if (progress_m == 0.0) corners.push_back({robot.x, robot.y});
   corners.push_back(dmrp::toolkit::point_at(waypoints_, arcs_m_, from_m));
-  for (std::size_t i = 0; i <= end; ++i)
+  for (std::size_t i = 0; i < waypoints_.size(); ++i)
     if (arcs_m_[i] > from_m) corners.push_back(point(i));
 
   nav_msgs::msg::Path plan;

@@ -37,10 +37,12 @@ class CarrotFollower final : public dmrp::LocalController {
     return dmrp::Status::ok;
   }
 
-  // The path is valid until the call returns, so keep a copy. The host calls it again, with the next revision, whenever
-  // the plan changes.
+  // The path ends where the robot must stop: at its goal, or, if it is partial, where it has to wait for others. It is
+  // valid until the call returns, so keep a copy. The host calls this again, with the next revision, whenever the plan
+  // changes or the robot may drive on.
   void set_path(dmrp::Path path, std::uint64_t /*revision*/) override {
     path_.assign(path.begin(), path.end());
+    ends_at_goal_ = !path.is_partial();
     toolkit::arc_lengths(path_, arcs_);
   }
 
@@ -49,8 +51,8 @@ class CarrotFollower final : public dmrp::LocalController {
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;  // the host brakes
 
-    // The carrot lies ahead of the robot's progress on the path, but not beyond the last released waypoint.
-    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    // The carrot lies ahead of the robot's progress on the path, but not beyond its end.
+    const double end_m = arcs_.back();
     const double carrot_m = std::min(now.progress_m + look_ahead, end_m);
     const dmrp::Vec2 carrot = toolkit::point_at(path_, arcs_, carrot_m);
     const double to_carrot_m = toolkit::distance(toolkit::position(now.pose), carrot);
@@ -59,7 +61,7 @@ class CarrotFollower final : public dmrp::LocalController {
     // At the end: turn to the goal's heading if it has one (NaN: any), else command zero. The host decides whether the
     // robot has arrived.
     if (remaining_m < 0.5 * now.goal.tolerance_m) {
-      if (!std::isnan(now.goal.pose.theta))
+      if (ends_at_goal_ && !std::isnan(now.goal.pose.theta))
         command.omega = gain * toolkit::difference(now.pose.theta, now.goal.pose.theta);
       return dmrp::Status::ok;
     }
@@ -89,6 +91,7 @@ class CarrotFollower final : public dmrp::LocalController {
 
   std::vector<dmrp::Waypoint> path_;
   std::vector<double> arcs_;  // arc length of each waypoint, m
+  bool ends_at_goal_ = false;
 };
 
 }  // namespace

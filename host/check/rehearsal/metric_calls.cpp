@@ -60,6 +60,7 @@ class MetricCalls {
     std::vector<dmrp_call> calls;
     const std::int32_t planned = stage_.settings.fails_to_plan ? DMRP_NO_SOLUTION : DMRP_OK;
     if (step_ == 0 && robot_count_ > 0) calls.push_back({DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, planned, 0, 5'000'000});
+    if (step_ == 1) calls.push_back({DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, DMRP_OK, 0, 1'000'000});
     for (std::uint32_t i = 0; i < robot_count_; ++i) {
       const core::RobotState& robot = world.robots()[i];
       const double progress_m = std::abs(robot.pose.x - stage_.variant.scenario.robots[i].start.x);
@@ -103,7 +104,7 @@ class MetricCalls {
     for (std::uint32_t i = 0; step_ == 0 && i < robot_count_; ++i)
       events.push_back({DMRP_ROBOT_EVENT_CLASS, i, world.t_ns(), DMRP_CLASS_MOVING, DMRP_NOBODY});
     const std::int64_t before_ns = world.t_ns() - stage_.variant.simulation.step_ns;
-    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_ROUTE + 1 && robot_count_ > 0)
+    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_RUNS_ON + 1 && robot_count_ > 0)
       events.push_back({static_cast<std::uint32_t>(step_), 0, before_ns, 0, DMRP_NOBODY});
     return events;
   }

@@ -27,8 +27,9 @@ std::string plan_text(const PlannerAnswer& answer, const PlanInput& input, const
     counts.push_back(path.size());
   }
   return nlohmann::json{
-      {"status", answer.status}, {"planning_ns", answer.planning_ns}, {"processor_ns", answer.processor_ns},
-      {"text", answer.text},     {"statistics", answer.statistics},   {"counts", counts}}
+      {"status", answer.status},  {"planning_ns", answer.planning_ns}, {"processor_ns", answer.processor_ns},
+      {"text", answer.text},      {"statistics", answer.statistics},   {"counts", counts},
+      {"partial", answer.partial}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -52,6 +53,9 @@ PlannerAnswer planner_answer(std::string_view text, const PlanInput& input, std:
       left -= count;
     }
     if (!answer.paths.empty() && answer.paths.size() != robot_count) throw UnbelievableMessage("without all paths");
+    json.at("partial").get_to(answer.partial);
+    if (!answer.partial.empty() && answer.partial.size() != answer.paths.size())
+      throw UnbelievableMessage("without all flags");
     return answer;
   } catch (const std::exception&) {  // no JSON, or what no planner gives
     throw PluginFault(fault_kind::abi_breach, site, wrote_into_shared_memory, true);

@@ -150,7 +150,7 @@ Measurement::Measurement(Instance& metric, const PluginInfo& info, std::uint32_t
       table_(metric.table<dmrp_metric>()) {}
 
 void Measurement::begin(const dmrp_metric_trial& trial) {
-  metric_.call("begin", 0, call_budget_ns_, Answers::no_other, [&] { return table_.begin(metric_.self(), &trial); });
+  metric_.call("begin", 0, call_budget_ns_, Answers::unsupported, [&] { return table_.begin(metric_.self(), &trial); });
 }
 
 void Measurement::observe(const dmrp_sample& sample) {
@@ -170,6 +170,18 @@ MetricResult Measurement::finish(const dmrp_trial_end& end) {
   return std::move(collected.result);
 }
 
+namespace {
+
+// What a metric has of a trial that is not for it.
+MetricResult without_values(const PluginInfo& info, std::uint32_t index) {
+  MetricResult result = {index, {}, {}};
+  for (const MetricValueSpec& spec : info.values)
+    result.values.push_back({spec.name, DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, std::nullopt});
+  return result;
+}
+
+}  // namespace
+
 MetricResult measure(core::TraceReader& trace, const std::shared_ptr<WalkingGrids>& walking_grids, Instance& metric,
                      const PluginInfo& info, std::uint32_t index, std::uint64_t seed, std::int64_t call_budget_ns) {
   if (!trace.end()) throw std::invalid_argument("the trace was cut short: it has no end");
@@ -177,10 +189,14 @@ MetricResult measure(core::TraceReader& trace, const std::shared_ptr<WalkingGrid
     const auto here = grids.lock();
     return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
   });
-  metric.start(trace.world(), toolkit::Stream(seed, "metric", info.id).next_u64(), call_budget_ns);
-
   Measurement measurement(metric, info, index, trace.world().robot_count, call_budget_ns);
-  measurement.begin({sizeof(dmrp_metric_trial), 0, trace.first_plan()});
+  try {
+    metric.start(trace.world(), toolkit::Stream(seed, "metric", info.id).next_u64(), call_budget_ns);
+    measurement.begin({sizeof(dmrp_metric_trial), 0, trace.first_plan()});
+  } catch (const PluginFault& fault) {
+    if (fault.kind() == std::string_view(fault_kind::unsupported)) return without_values(info, index);
+    throw;
+  }
   // without a plan nothing moved: the only sample records the planner's call
   const bool shown = trace.end()->ending != DMRP_ENDING_NO_PLAN || (info.channels & DMRP_CHANNEL_CALLS) != 0;
   trace.rewind();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/statistics/kaplan_meier.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
 #include "host/report/data/report_frame.hpp"
 #include "host/report/data/report_layout.hpp"
 #include "host/results/manifest.hpp"
@@ -19,8 +20,7 @@ struct ArrivalTimes {
   std::size_t combination;
   std::uint32_t robots;
   double horizon_s;  // the time limit
-  double restricted_mean_s;
-  core::Interval interval;  // 95 %, over seeds
+  core::MeanOfTasks restricted_mean_s;
   double arrived_share;
   std::vector<core::SurvivalStep> not_arrived;  // share of robots that have not arrived
 };

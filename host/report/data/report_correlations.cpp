@@ -2,7 +2,7 @@
 #include "host/report/data/report_correlations.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <map>
 
 namespace dmrp::host {
 namespace {
@@ -15,7 +15,7 @@ struct Stratum {
 std::vector<Stratum> strata_of(const ReportFrame& frame) {
   std::vector<Stratum> strata;
   for (std::size_t trial = 0; trial < frame.trials.size(); ++trial) {
-    if (frame.trials[trial].outcome == trial_outcome::skipped || frame.trials[trial].robots == 0) continue;
+    if (!has_result(frame.trials[trial]) || frame.trials[trial].robots == 0) continue;
     CombinationLabels labels = frame.combinations[frame.combination_of[trial]];
     labels.local_controller.clear();
     const auto found =
@@ -29,19 +29,16 @@ std::vector<Stratum> strata_of(const ReportFrame& frame) {
 }
 
 core::RankCorrelation correlate(const ReportFrame& frame, const Stratum& stratum, std::size_t x, std::size_t y) {
-  std::vector<double> xs;
-  std::vector<double> ys;
-  std::vector<std::uint64_t> seeds;
-  std::vector<std::uint32_t> controllers;  // by combination: the other labels are constant in the stratum
-  for (const std::size_t trial : stratum.trials) {
-    const auto& values = frame.values[trial];
-    if (!values[x] || !values[y]) continue;
-    xs.push_back(*values[x]);
-    ys.push_back(*values[y]);
-    seeds.push_back(frame.trials[trial].seed);
-    controllers.push_back(static_cast<std::uint32_t>(frame.combination_of[trial]));
+  std::map<std::size_t, std::vector<std::size_t>> controllers;  // by combination: the other labels are constant
+  for (const std::size_t trial : stratum.trials)
+    if (frame.values[trial][x] && frame.values[trial][y]) controllers[frame.combination_of[trial]].push_back(trial);
+  std::vector<std::vector<double>> xs;
+  std::vector<std::vector<double>> ys;
+  for (const auto& [combination, trials] : controllers) {
+    xs.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][x]; }));
+    ys.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][y]; }));
   }
-  return core::rank_correlation(xs, ys, seeds, controllers);
+  return core::task_rank_correlation(xs, ys, frame.tasks.resampling);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct StratumCorrelation {
   CombinationLabels stratum;  // without a controller: includes the trials of all controllers
   std::size_t x;              // metrics
   std::size_t y;
-  core::RankCorrelation correlation;  // over the trials in which both are defined, within controllers
+  core::RankCorrelation correlation;  // over the tasks in which both are defined, within controllers
 };
 
 std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes);

@@ -5,17 +5,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
 #include "host/report/data/report_frame.hpp"
-#include "host/report/data/report_layout.hpp"
 
 namespace dmrp::host {
 
 struct CurvePoint {
   double coordinate;
-  double mean;              // of the trials in which it is defined; NaN if there is none
-  core::Interval interval;  // 95 %, over seeds
-  std::uint32_t defined;    // trials
+  core::MeanOfTasks over_tasks;
+  std::uint32_t defined;  // trials
 };
 
 struct MetricCurve {
@@ -24,8 +22,8 @@ struct MetricCurve {
   std::vector<CurvePoint> points;  // by coordinate
 };
 
-// The system's curves, by metric, then combination. Omits the metric for pedestrian delays and curves without a
+// The system's curves, by metric, then combination. Omits the metric for delays of people and curves without a
 // defined point.
-std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const ReportLayout& layout);
+std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const std::string& people_progress);
 
 }  // namespace dmrp::host

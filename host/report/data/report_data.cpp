@@ -7,6 +7,7 @@
 #include <set>
 
 #include "host/files/read_file.hpp"
+#include "host/findings/summary.hpp"
 #include "host/ranking/bounds.hpp"
 #include "host/ranking/graded_series.hpp"
 #include "host/report/data/report_curves.hpp"
@@ -14,7 +15,6 @@
 #include "host/report/data/report_json.hpp"
 #include "host/report/data/report_statistics.hpp"
 #include "host/results/arrivals_by_type.hpp"
-#include "host/results/summary.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -128,6 +128,7 @@ Json values_json(const ReportFrame& frame, const std::set<std::size_t>& curves) 
 
 Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
   return {{"trials", trials},
+          {"tasks", summary.tasks},
           {"defined", summary.defined},
           {"mean", summary.mean},
           {"sd", summary.sd},
@@ -180,7 +181,8 @@ Json curves_json(const ReportFrame& frame, std::span<const MetricCurve> curves, 
     const auto axis = std::find_if(axes.begin(), axes.end(), [&](const auto& one) { return one.metric == metric; });
     Json points = Json::array();
     for (const CurvePoint& point : curve.points)
-      points.push_back({point.coordinate, point.mean, point.interval.low, point.interval.high, point.defined});
+      points.push_back({point.coordinate, point.over_tasks.mean, point.over_tasks.interval.low,
+                        point.over_tasks.interval.high, point.defined});
     json.push_back({{"metric", metric},
                     {"combination", curve.combination},
                     {"coordinate_unit", axis == axes.end() ? "" : axis->coordinate_unit},
@@ -199,7 +201,8 @@ Json timing_json(std::span<const TrialRecord> trials) {
 
 Json faults_json(std::span<const TrialRecord> trials) {
   Json json = Json::array();
-  for (const TrialRecord& trial : trials)
+  for (const TrialRecord& trial : trials) {
+    if (!has_fault(trial)) continue;
     for (const FaultRecord& fault : trial.faults)
       json.push_back({{"trial", trial.id},
                       {"kind", fault.kind},
@@ -210,6 +213,7 @@ Json faults_json(std::span<const TrialRecord> trials) {
                       {"signal", fault.signal == 0 ? Json() : Json(fault.signal)},
                       {"detail", fault.detail},
                       {"rerun", fault.rerun}});
+  }
   return json;
 }
 
@@ -295,7 +299,8 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
   json["values"] = values_json(frame, curve_metrics(frame));
   json["summaries"] = summaries_json(frame.combinations, summaries, metrics.size());
   add_planners(json, frame, counts_failures);
-  json["curves"] = curves_json(frame, metric_curves(frame, layouts.report), layouts.report.curves);
+  json["curves"] =
+      curves_json(frame, metric_curves(frame, layouts.summary.answer.people_progress), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
   json["graded"] = graded_json(run, layouts.summary);
   json["sanity_only"] = sanity_only(layouts.tested_worlds, run.manifest.experiment.scenarios, run.trials);

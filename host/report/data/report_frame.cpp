@@ -12,13 +12,16 @@ std::optional<std::size_t> ReportFrame::metric(std::string_view name) const {
   return static_cast<std::size_t>(found - metrics.begin());
 }
 
+std::size_t ReportFrame::combination(const CombinationLabels& labels) const {
+  return static_cast<std::size_t>(std::find(combinations.begin(), combinations.end(), labels) - combinations.begin());
+}
+
 ReportFrame make_report_frame(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials) {
-  ReportFrame frame{metrics, trials, {}, {}, system_values(metrics, trials)};
+  ReportFrame frame{metrics, trials, {}, {}, system_values(metrics, trials), tasks_of(trials)};
   for (const TrialRecord& trial : trials) {
     const CombinationLabels labels = combination_of(trial);
-    const auto found = std::find(frame.combinations.begin(), frame.combinations.end(), labels);
-    frame.combination_of.push_back(static_cast<std::size_t>(found - frame.combinations.begin()));
-    if (found == frame.combinations.end()) frame.combinations.push_back(labels);
+    frame.combination_of.push_back(frame.combination(labels));
+    if (frame.combination_of.back() == frame.combinations.size()) frame.combinations.push_back(labels);
   }
   return frame;
 }

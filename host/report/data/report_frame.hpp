@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 #include "host/results/system_values.hpp"
 #include "host/results/trial_record.hpp"
 
@@ -20,6 +20,9 @@ struct ReportFrame {
   std::vector<CombinationLabels> combinations;  // in order of first appearance, including those of skipped trials
   std::vector<std::size_t> combination_of;      // of each trial
   SystemValues values;                          // [trial][metric]
+  Tasks tasks;
+
+  std::size_t combination(const CombinationLabels& labels) const;  // its index
 
   // The index of a metric; none if it was not measured.
   std::optional<std::size_t> metric(std::string_view name) const;

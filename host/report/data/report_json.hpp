@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "host/findings/summary.hpp"
 #include "host/results/manifest.hpp"
-#include "host/results/summary.hpp"
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::host {

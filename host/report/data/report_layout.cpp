@@ -11,9 +11,8 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::array<const char*, 9> known_keys{"replays",       "tables",           "heat_map",
-                                                "distributions", "diagnosis",        "comparisons",
-                                                "completion",    "pedestrian_delay", "curves"};
+constexpr std::array<const char*, 8> known_keys{"replays",   "tables",      "heat_map",   "distributions",
+                                                "diagnosis", "comparisons", "completion", "curves"};
 
 ComparedMetric parse_comparison(const nlohmann::json& json) {
   ComparedMetric compared;
@@ -55,10 +54,6 @@ ReportLayout parse(std::string_view text) {
     json["diagnosis"].at("y").get_to(layout.diagnosis.y);
   }
   if (json.contains("completion")) json["completion"].at("metric").get_to(layout.completion);
-  if (json.contains("pedestrian_delay")) {
-    json["pedestrian_delay"].at("progress").get_to(layout.pedestrian_delay.progress);
-    json["pedestrian_delay"].at("desired_speed").get_to(layout.pedestrian_delay.desired_speed);
-  }
   for (const nlohmann::json& curve : json.value("curves", nlohmann::json::array()))
     layout.curves.push_back({curve.at("metric"), curve.at("coordinate"), curve.at("coordinate_unit")});
   if (json.contains("replays")) {

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "host/ranking/paired_test.hpp"
+#include "host/ranking/paired_difference.hpp"
 #include "host/report/replay/replays.hpp"
 
 namespace dmrp::host {
 
-// A metric that is compared between planners, controllers and pedestrian models, paired by seed.
+// A metric that is compared between planners, controllers and pedestrian models, paired by trial.
 struct ComparedMetric {
   std::string metric;
   PairedTest test = PairedTest::signed_rank;
@@ -27,12 +27,6 @@ struct DiagnosisAxes {
   std::vector<std::string> y;
 };
 
-// The metrics from which pedestrian delays are computed.
-struct PedestrianDelayMetrics {
-  std::string progress;       // curve over seconds: mean distance gained by a person, m
-  std::string desired_speed;  // mean over people, m/s
-};
-
 struct CurveAxis {
   std::string metric;
   std::string coordinate;  // its name for readers
@@ -44,7 +38,6 @@ struct ReportLayout {
   std::vector<ComparedMetric> comparisons;
   DiagnosisAxes diagnosis;
   std::string completion;  // metric: arrival time of a robot, undefined if it did not arrive
-  PedestrianDelayMetrics pedestrian_delay;
   std::vector<CurveAxis> curves;
   ReplayPolicy replays;
 };

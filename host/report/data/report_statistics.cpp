@@ -41,19 +41,22 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
     }
   json["given"] = std::move(given);
   json["combinations"] = {one.a, one.b};
+  const core::MeanOfTasks& over_tasks = one.difference.over_tasks;
   json["pairs"] = one.pairs;
+  json["tasks"] = over_tasks.n;
   json["ties"] = one.ties;
-  json["median_difference"] = one.median_difference;
-  json["low"] = one.median_interval.low;
-  json["high"] = one.median_interval.high;
-  json["mean_difference"] = one.mean_difference;
-  json["mean_low"] = one.mean_interval.low;
-  json["mean_high"] = one.mean_interval.high;
+  json["median_difference"] = one.shift.estimate;
+  json["low"] = one.shift.interval.low;
+  json["high"] = one.shift.interval.high;
+  json["mean_difference"] = over_tasks.mean;
+  json["mean_low"] = over_tasks.interval.low;
+  json["mean_high"] = over_tasks.interval.high;
   json["effect"] = one.effect;
   json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "sign_flip";
-  json["exact"] = one.exact;
-  json["p"] = one.p;
-  json["p_holm"] = one.p_holm;
+  json["exact"] = one.difference.exact;
+  json["equal"] = one.difference.equal;
+  json["p"] = one.difference.p;
+  json["p_holm"] = one.difference.p_holm;
   return json;
 }
 
@@ -69,7 +72,6 @@ Json correlation_json(const ReportFrame& frame, const StratumCorrelation& one) {
           {"low", one.correlation.interval.low},
           {"high", one.correlation.interval.high},
           {"p", one.correlation.p},
-          {"exact", one.correlation.exact},
           {"ties_share", one.correlation.ties_share}};
 }
 
@@ -79,47 +81,51 @@ Json completion_json(const ArrivalTimes& one) {
   return {{"combination", one.combination},
           {"robots", one.robots},
           {"horizon_s", one.horizon_s},
-          {"restricted_mean_s", one.restricted_mean_s},
-          {"low", one.interval.low},
-          {"high", one.interval.high},
+          {"restricted_mean_s", one.restricted_mean_s.mean},
+          {"low", one.restricted_mean_s.interval.low},
+          {"high", one.restricted_mean_s.interval.high},
           {"arrived_share", one.arrived_share},
           {"steps", std::move(steps)}};
 }
 
 Json delay_json(const PedestrianDelay& one) {
-  return {{"combination", one.combination},
-          {"pairs", one.pairs},
-          {"mean_s", one.mean_s},
-          {"low", one.interval.low},
-          {"high", one.interval.high}};
+  return {{"combination", one.combination},     {"pairs", one.pairs},
+          {"tasks", one.over_tasks.n},          {"mean_s", one.over_tasks.mean},
+          {"low", one.over_tasks.interval.low}, {"high", one.over_tasks.interval.high}};
 }
 
 Json ranked_json(const Answer& answer, const RankedCombination& one) {
-  static constexpr const char* standings[] = {"first", "not_told_apart", "worse"};  // by Standing
+  static constexpr const char* standings[] = {"first", "may_be_best", "worse"};  // by Standing
   Json json = {{"global_planner", one.global_planner},
                {"local_controller", one.local_controller},
                {"trials", one.trials},
                {"means", one.means},
                {"standing", standings[static_cast<std::size_t>(one.standing)]},
                {"decided", one.decided ? Json(*one.decided) : Json()},
-               {"words", one.decided ? Json(difference_words(answer, one, *one.decided)) : Json()}};
+               {"words", one.decided ? Json(difference_words(answer, one, *one.decided)) : Json()},
+               {"pareto", one.pareto}};
+  json["intervals"] = Json::array();
+  for (const core::Interval& interval : one.intervals) json["intervals"].push_back({interval.low, interval.high});
   json["against"] = Json::array();
-  for (const AgainstFirst& against : one.against)
-    json["against"].push_back({{"observations", against.observations},
-                               {"mean", against.mean},
-                               {"low", against.interval.low},
-                               {"high", against.interval.high},
-                               {"p_holm", against.p_holm}});
+  for (const PairedDifference& against : one.against)
+    json["against"].push_back({{"tasks", against.over_tasks.n},
+                               {"mean", against.over_tasks.mean},
+                               {"low", against.over_tasks.interval.low},
+                               {"high", against.over_tasks.interval.high},
+                               {"equal", against.equal}});
   return json;
 }
 
 Json answer_json(const Answer& answer, std::span<const CombinationFailures> failures) {
-  Json json = {{"heading", answer_heading(answer)}, {"lines", answer_lines(answer, failures)}};
+  Json json = {{"heading", answer_heading(answer)},
+               {"tasks", answer.tasks},
+               {"worlds", answer.worlds},
+               {"lines", answer_lines(answer, failures)}};
   json["cells"] = Json::array();
   for (const CombinationLabels& cell : answer.cells) json["cells"].push_back(labels_json(cell));
   json["criteria"] = Json::array();
   for (const Criterion& criterion : answer.criteria)
-    json["criteria"].push_back({{"name", criterion.name}, {"unit", criterion.share ? "1" : "s/m"}});
+    json["criteria"].push_back({{"name", criterion.name}, {"unit", criterion.unit()}});
   json["ranking"] = Json::array();
   for (const RankedCombination& one : answer.ranking) json["ranking"].push_back(ranked_json(answer, one));
   return json;
@@ -155,6 +161,7 @@ void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts&
       json_mark["metric"] = mark.metric;
     }
   json["failures_line"] = failures_line(failures);
+  json["standstills_line"] = standstills_line(layouts.summary, frame.trials);
   json["failures"] = Json::array();
   for (const CombinationFailures& one : failures) json["failures"].push_back(failures_json(one));
   json["correlations"] = Json::array();
@@ -163,8 +170,7 @@ void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts&
   json["completion"] = Json::array();
   for (const auto& one : arrival_times(frame, facts, report)) json["completion"].push_back(completion_json(one));
   json["pedestrian_delay"] = Json::array();
-  for (const auto& one : pedestrian_delays(frame, report.pedestrian_delay))
-    json["pedestrian_delay"].push_back(delay_json(one));
+  for (const auto& one : pedestrian_delays(frame, layouts.summary)) json["pedestrian_delay"].push_back(delay_json(one));
 }
 
 }  // namespace dmrp::host

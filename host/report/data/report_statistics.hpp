@@ -2,21 +2,23 @@
 // report_statistics.hpp: adds the statistics to the data of a report (report_data.hpp):
 //
 //   comparisons       [{metric, scenario, robots, varied: global_planner | local_controller | pedestrian_model, a, b,
-//                     given: {the other two labels}, combinations: [of a, of b], pairs, ties, median_difference, low,
-//                     high, mean_difference, mean_low, mean_high, effect, test: signed_rank | sign_flip, exact, p,
-//                     p_holm}]; differences are b - a
-//   answers           [{heading, lines, cells: [labels], criteria: [{name, unit}], ranking: [{global_planner,
-//                     local_controller, trials, means, standing: first | not_told_apart | worse, decided: criterion,
-//                     words, against: [{observations, mean, low, high, p_holm}]}]}]: answer.hpp; the first is over
-//                     everything
+//                     given: {the other two labels}, combinations: [of a, of b], pairs, tasks, ties,
+//                     median_difference, low, high, mean_difference, mean_low, mean_high, effect, test: signed_rank |
+//                     sign_flip, exact, equal, p, p_holm}]; differences are b - a; p: null below five tasks, or if
+//                     nothing differs
+//   answers           [{heading, tasks, worlds, lines, cells: [labels], criteria: [{name, unit}], ranking:
+//                     [{global_planner, local_controller, trials, means, standing: first | may_be_best | worse,
+//                     decided: criterion, words, pareto, intervals: [[low, high]], against: [{tasks, mean, low, high,
+//                     equal}]}]}]: answer.hpp; the first is over everything
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
 //   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp
-//   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p, exact,
-//                     ties_share}]
+//   standstills_line  likewise
+//   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p,
+//                     ties_share}]; n: tasks
 //   completion        [{combination, robots, horizon_s, restricted_mean_s, low, high, arrived_share,
 //                     steps: [[t, share of robots that have arrived]]}]
-//   pedestrian_delay  [{combination, pairs, mean_s, low, high}]
+//   pedestrian_delay  [{combination, pairs, tasks, mean_s, low, high}]
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -12,7 +12,7 @@ std::optional<double> time_limit_s(const ExperimentFacts& facts, const Combinati
 std::optional<double> counted_value(const ReportFrame& frame, const ExperimentFacts& facts, const CountedValue& rule,
                                     std::size_t trial) {
   const TrialRecord& record = frame.trials[trial];
-  if (record.outcome == trial_outcome::skipped) return std::nullopt;
+  if (!has_result(record)) return std::nullopt;
   if (rule.successes_only && record.outcome != trial_outcome::succeeded) return std::nullopt;
   if (const std::optional<double>& value = frame.values[trial][rule.metric]) return value;
   if (rule.counts_failures && record.outcome == trial_outcome::fault) return 0.0;

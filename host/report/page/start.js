@@ -2,7 +2,6 @@
 // start.js: reads the data and fills the page. The head, the answer and the tables come at once, the others when the reader
 // scrolls near them or when the browser is idle, so that the report of a large run opens quickly.
 import {element, fill} from './elements.js';
-import * as few from './few.js';
 import * as completion from './plots/completion.js';
 import * as diagnosis from './plots/diagnosis.js';
 import * as distributions from './plots/distributions.js';
@@ -214,7 +213,7 @@ function begin() {
   theme.follow_system();
   theme.follow_printing();
   tips.explain_on_demand();
-  const data = few.without_estimates(JSON.parse(document.getElementById('dmrp-data').textContent));
+  const data = JSON.parse(document.getElementById('dmrp-data').textContent);
   overview.mount(document.getElementById('overview'), data);
   const all = with_data(parts(), data);
   const anchor = make_anchor();

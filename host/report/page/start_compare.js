@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // start_compare.js: reads the data of a comparison and fills its page: a section for each later run.
 import {element} from './elements.js';
-import * as few from './few.js';
 import * as differences from './compare/differences.js';
 import * as overview from './compare/overview.js';
 import * as what_changed from './compare/what_changed.js';
@@ -33,7 +32,7 @@ function begin() {
   theme.follow_system();
   theme.follow_printing();
   tips.explain_on_demand();
-  const data = few.without_estimates(JSON.parse(document.getElementById('dmrp-data').textContent));
+  const data = JSON.parse(document.getElementById('dmrp-data').textContent);
   window.dmrp = {data};
   overview.mount(document.getElementById('overview'), data);
   data.runs.forEach((run, index) => section(data, run, index));

@@ -19,7 +19,7 @@ auto labels(const TrialRecord& trial) {
 std::vector<Group> combinations(std::span<const TrialRecord> trials) {
   std::vector<Group> groups;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].outcome == trial_outcome::skipped) continue;
+    if (!has_result(trials[i])) continue;
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
       return labels(trials[group.front()]) == labels(trials[i]);
     });

@@ -38,10 +38,12 @@ std::string where(std::size_t robot, std::size_t waypoint) {
 }
 
 // For every planner: waypoints are finite, begin at the start, have increasing times, and visit all goals in order; the
-// path ends at the last goal.
+// path ends at the last goal, unless it is partial.
 std::string check_structure(const dmrp_planning_problem& problem, const dmrp_planning_robot& robot, std::size_t index,
-                            const std::vector<dmrp_waypoint>& path) {
+                            const std::vector<dmrp_waypoint>& path, bool partial) {
   if (path.empty()) return fmt::format("robot {} has no waypoints", index);
+  if (partial && problem.window_steps == 0)
+    return fmt::format("robot {} has a partial path, but the whole way was asked for", index);
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!std::isfinite(path[i].x) || !std::isfinite(path[i].y) || std::isinf(path[i].theta))
       return where(index, i) + " is not finite";
@@ -70,6 +72,12 @@ std::string check_structure(const dmrp_planning_problem& problem, const dmrp_pla
     if (w.goal_index < robot.first_goal_index + reached)
       return fmt::format("robot {} goes back to goal {}", index, w.goal_index);
     if (near(w.x, w.y, goal.pose.x, goal.pose.y) && w.goal_index == robot.first_goal_index + reached) ++reached;
+  }
+  if (partial) {
+    // every goal before the one that it heads for
+    if (heads_for > robot.first_goal_index + reached)
+      return fmt::format("robot {} does not visit its goal {}", index, robot.first_goal_index + reached);
+    return "";
   }
   const dmrp_goal& last = *DMRP_AT(dmrp_goal, robot.goals, robot.goal_stride, robot.goal_count - 1);
   if (!near(path.back().x, path.back().y, last.pose.x, last.pose.y))
@@ -143,7 +151,7 @@ std::vector<core::StepOverlaps::Robot> robots_of(const dmrp_planning_problem& pr
 }  // namespace
 
 PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPaths& paths, std::uint32_t connectivity,
-                          const SweepIsFree& sweep_is_free) {
+                          const SweepIsFree& sweep_is_free, const std::vector<bool>& partial) {
   PlanVerdict verdict;
   if (paths.size() != problem.robot_count) {
     verdict.error = fmt::format("{} paths for {} robots", paths.size(), problem.robot_count);
@@ -152,7 +160,7 @@ PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPat
   std::vector<std::vector<Cell>> cells(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const auto& robot = *DMRP_AT(dmrp_planning_robot, problem.robots, problem.robot_stride, i);
-    verdict.error = check_structure(problem, robot, i, paths[i]);
+    verdict.error = check_structure(problem, robot, i, paths[i], !partial.empty() && partial[i]);
     if (verdict.error.empty())
       verdict.error = connectivity == DMRP_CONNECTIVITY_ANY ? check_sweeps(robot, i, paths[i], sweep_is_free)
                                                             : check_steps(problem, i, paths[i], connectivity, cells[i]);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "host/trial/plans/plan_conflicts.hpp"
 
@@ -21,10 +22,11 @@ struct PlanVerdict {
   std::string first_conflict;   // in one line
 };
 
-// Checks structure (start, strictly growing times, goals in order, rest at the last), moves (free cells, edge mask,
+// Checks structure (start, strictly growing times, goals in order, rest at the last unless the path is partial), moves (free cells, edge mask,
 // one step each; any angle: swept discs) and conflicts between robots (robots rest at their last waypoint): by cells and
 // by footprints (step_overlaps.hpp); of plans at any angle, by the circles around the footprints.
+// `partial`: parallel to the paths, or empty; only for a problem with a window.
 PlanVerdict validate_plan(const dmrp_planning_problem& problem, const PlannedPaths& paths, std::uint32_t connectivity,
-                          const SweepIsFree& sweep_is_free);
+                          const SweepIsFree& sweep_is_free, const std::vector<bool>& partial = {});
 
 }  // namespace dmrp::host

@@ -25,6 +25,7 @@ constexpr double snap_reach_cells = 2.0;
 struct Collected {
   PlannedPaths paths;
   std::vector<bool> given;
+  std::vector<bool> partial;
   std::vector<PlanStatistic> statistics;
   std::string refused;  // why the last path was
 };
@@ -48,9 +49,9 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
   const dmrp_path path = copy_struct(theirs);
   if (path.count > 0 && !path.waypoints) return refuse(collected, robot, "its waypoints are NULL");
   if (path.count > 0 && !has_stride_v1_0<dmrp_waypoint>(path.stride))
-    return refuse(collected, robot,
-                  fmt::format("its stride is {}, at least {} and a multiple of 8", path.stride,
-                              size_v1_0<dmrp_waypoint>));
+    return refuse(
+        collected, robot,
+        fmt::format("its stride is {}, at least {} and a multiple of 8", path.stride, size_v1_0<dmrp_waypoint>));
   if ((path.flags & ~DMRP_PATH_PARTIAL) != 0)
     return refuse(collected, robot, fmt::format("its flags are {:#x}, which this host does not know", path.flags));
   std::vector<dmrp_waypoint> waypoints;
@@ -64,6 +65,10 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
   }
   collected.paths[robot] = std::move(waypoints);
   collected.given[robot] = true;
+  if ((path.flags & DMRP_PATH_PARTIAL) != 0) {
+    collected.partial.resize(collected.paths.size());
+    collected.partial[robot] = true;
+  }
   return DMRP_OK;
 }
 
@@ -149,9 +154,9 @@ void from_json(const nlohmann::json& json, PlanStatistic& statistic) {
 
 const dmrp_plan& Plan::view() {
   c_paths_.clear();
-  for (const auto& path : paths)
-    c_paths_.push_back(
-        {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    c_paths_.push_back({sizeof(dmrp_path), static_cast<std::uint32_t>(paths[i].size()), sizeof(dmrp_waypoint),
+                        is_partial(i) ? DMRP_PATH_PARTIAL : 0, paths[i].data()});
   c_statistics_.clear();
   for (const PlanStatistic& statistic : statistics) c_statistics_.push_back({statistic.name.c_str(), statistic.value});
   c_ = {sizeof(dmrp_plan),
@@ -186,11 +191,16 @@ PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& probl
     });
   };
   const auto result = with_reason(call, collected.refused);
-  PlannerAnswer answer{
-      result.status, result.duration_ns, processor_ns, planner.guard().error(), {}, std::move(collected.statistics)};
+  PlannerAnswer answer{result.status,
+                       result.duration_ns,
+                       processor_ns,
+                       planner.guard().error(),
+                       {},
+                       {},
+                       std::move(collected.statistics)};
   if (result.status == DMRP_NO_SOLUTION) return answer;
   if (std::find(collected.given.begin(), collected.given.end(), false) == collected.given.end())
-    answer.paths = std::move(collected.paths);
+    answer.paths = std::move(collected.paths), answer.partial = std::move(collected.partial);
   else if (result.status != DMRP_TIMEOUT)
     throw PluginFault(fault_kind::bad_output, planner.site("plan", step),
                       "returned OK without a path for every robot" + collected.refused);
@@ -209,6 +219,8 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
   const toolkit::GridView grid(problem.grid);
   describe_robots(variant, world, grid, problem);
   if (!put_on_cells(variant, world, grid, in_force, problem)) return false;
+  for (std::size_t i = 0; in_force && i < problem.robots.size(); ++i)
+    if (problem.robots[i].state == DMRP_ROBOT_ACTIVE) problem.robots[i].waiting_ns = in_force->robots[i].waiting_ns;
 
   dmrp_planning_problem& c = problem.c;
   c.struct_size = sizeof(c);
@@ -229,6 +241,16 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
   return true;
 }
 
+void cut_to_window(const dmrp_planning_problem& problem, PlannerAnswer& answer) {
+  if (problem.window_steps == 0) return;
+  answer.partial.resize(answer.paths.size());
+  for (std::size_t i = 0; i < answer.paths.size(); ++i) {
+    if (answer.paths[i].size() <= problem.window_steps + std::size_t{1}) continue;
+    answer.paths[i].resize(problem.window_steps + std::size_t{1});
+    answer.partial[i] = true;
+  }
+}
+
 Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWorld& variant, const core::World& world,
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step) {
   Plan plan;
@@ -238,20 +260,23 @@ Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWo
 
   StagedProblem problem;
   if (!stage_problem(variant, world, in_force, time_budget_ns, problem)) return plan;
+  if (info.has_flag(DMRP_FLAG_WINDOWED)) problem.c.window_steps = variant.simulation.replan.window_steps;
   static_cast<PlannerAnswer&>(plan) = source(problem.c);
   plan.answered = true;
   if (!plan.exists()) return plan;
+  cut_to_window(problem.c, plan);
   const PlanVerdict verdict = validate_plan(
       problem.c, plan.paths, info.connectivity,
-      [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); });
+      [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); },
+      plan.partial);
   if (const std::string breach = breach_of(verdict, info); !breach.empty())
     throw PluginFault(fault_kind::bad_output, {info.id, "plan", step}, breach);
   plan.conflicts = verdict.conflicts;
   return plan;
 }
 
-std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
-                                         std::int64_t step_duration_ns) {
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, bool partial,
+                                         std::span<const dmrp_goal> goals, std::int64_t step_duration_ns) {
   std::vector<dmrp_waypoint> path;
   std::int64_t later_ns = 0;  // the duration of the legs that were inserted so far
   const auto add_leg = [&](dmrp_pose to, std::uint32_t goal_index) {
@@ -263,7 +288,7 @@ std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& plann
     path.back().t_ns += later_ns;
     const std::uint32_t heads_for = planned[i].goal_index;
     const bool is_last = i + 1 == planned.size();
-    if (!is_last && planned[i + 1].goal_index == heads_for) continue;
+    if (is_last ? partial : planned[i + 1].goal_index == heads_for) continue;
     // this waypoint reaches the goal
     const dmrp_pose& goal = goals[heads_for].pose;
     if (std::hypot(planned[i].x - goal.x, planned[i].y - goal.y) > 1e-9) {

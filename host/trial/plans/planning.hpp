@@ -37,6 +37,7 @@ struct PlannerAnswer {
   std::int64_t processor_ns = 0;  // of all threads of the process
   std::string text;               // of set_error()
   PlannedPaths paths;             // one per robot; empty if there is no plan
+  std::vector<bool> partial;      // parallel to them: it ends before the last goal; empty: none does
   std::vector<PlanStatistic> statistics;
 };
 
@@ -50,6 +51,7 @@ class Plan : public PlannerAnswer {
   bool answered = false;        // false where the robots cannot be put on distinct cells
 
   bool exists() const { return !paths.empty(); }
+  bool is_partial(std::size_t robot) const { return !partial.empty() && partial[robot]; }
 
   // Valid until the plan changes or moves.
   const dmrp_plan& view();
@@ -76,7 +78,8 @@ struct StagedProblem {
 // A robot on its path: now, and when a plan that is made now takes effect, as the times of the path predict.
 struct PathPosition {
   dmrp_vec2 next_waypoint{};
-  dmrp_vec2 position_then{};  // its position now, if the plan takes effect at once
+  dmrp_vec2 position_then{};    // its position now, if the plan takes effect at once
+  std::int64_t waiting_ns = 0;  // since its last progress
 };
 
 // The plan in force while the next one is made.
@@ -99,6 +102,9 @@ std::string breach_of(const PlanVerdict& verdict, const PluginInfo& info);
 // Gives the plan for a problem: by a call of the planner, not yet validated, or as it was stored.
 using PlanSource = std::function<PlannerAnswer(const dmrp_planning_problem& problem)>;
 
+// Cuts paths that are longer than the problem's window, if it has one, and makes them partial.
+void cut_to_window(const dmrp_planning_problem& problem, PlannerAnswer& answer);
+
 // Makes a plan of the planner `info`. `time_budget_ns` is wall time, `step` the physics steps since the start. The plan
 // does not exist() after NO_SOLUTION or TIMEOUT, or if the robots cannot be put on distinct cells. Throws PluginFault, of
 // kind bad_output if the plan breaks the contract.
@@ -106,9 +112,9 @@ Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWo
                const InForce* in_force, std::int64_t time_budget_ns, std::int64_t step);
 
 // The path that a robot's controller follows. Plans lead to the centre of a goal's cell: where the goal is not there, this
-// appends a leg to the goal and, on a tour, a leg back to the centre. Each takes `step_duration_ns`. `planned` has one
-// waypoint at least; `goals` are all of the robot's, by index.
-std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, std::span<const dmrp_goal> goals,
-                                         std::int64_t step_duration_ns);
+// appends a leg to the goal and, on a tour, a leg back to the centre. Each takes `step_duration_ns`. A `partial` plan
+// does not end at a goal. `planned` has one waypoint at least; `goals` are all of the robot's, by index.
+std::vector<dmrp_waypoint> path_to_drive(const std::vector<dmrp_waypoint>& planned, bool partial,
+                                         std::span<const dmrp_goal> goals, std::int64_t step_duration_ns);
 
 }  // namespace dmrp::host

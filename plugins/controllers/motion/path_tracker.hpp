@@ -53,7 +53,7 @@ class PathTracker {
   std::vector<double> arcs_;
   bool leads_to_goal_ = false;  // the path is not partial
   bool fresh_ = false;          // no update() since set_path()
-  bool led_in_ = false;  // the robot's position was prepended to a path of one waypoint
+  bool led_in_ = false;         // the robot's position was prepended to a path of one waypoint
   double progress_m_ = 0.0;
   double end_m_ = 0.0;
   StopPoint stop_;

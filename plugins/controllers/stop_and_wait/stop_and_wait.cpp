@@ -30,6 +30,25 @@ constexpr double turn_end_rad = 0.05;
 constexpr double turn_check_s = 0.5;
 constexpr int turn_check_steps = 5;
 
+// Nearer than stop_distance, the robot creeps up to another robot, as far as this. Robots that rotate around a cycle of
+// cells must all begin while each is still in the way of the next. Between cells of 1 m, robots of 0.25 m radius pass
+// each other by 0.2 m.
+constexpr double creep_speed = 0.1;
+constexpr double robot_distance_m = 0.05;
+
+// Whether nobody but robots is near enough to stand in the way of this robot at a point of its path.
+bool only_robots_near(const Observation& now, Vec2 point) {
+  constexpr double cells_m = 0.2;  // the padding, and cells and steps of 0.05 m
+  bool robots = false;
+  for (const Agent& agent : now.agents) {
+    if (toolkit::distance(toolkit::position(agent.pose), point) > now.footprint.radius_m + agent.radius_m + cells_m)
+      continue;
+    if (agent.kind != DMRP_AGENT_ROBOT) return false;
+    robots = true;
+  }
+  return robots;
+}
+
 }  // namespace
 
 Descriptor StopAndWait::describe() {
@@ -115,9 +134,13 @@ Command StopAndWait::drive(const Observation& now, const Leg& leg, const Footpri
   const Vec2 aside = toolkit::to_local(now.pose, leg.ahead);
   const double curvature = 2.0 * aside.y / toolkit::squared_norm(aside);
   const double braking_m = limits.v_max * (0.5 * limits.v_max / limits.a_max + period_s);
-  const double free_m = free_length_m(now, leg, check, braking_m + stop_distance);
-  const double room_m = free_m < leg.length_m ? std::min(free_m - stop_distance, leg.length_m) : leg.length_m;
+  const Way way = look_ahead(now, leg, check, braking_m + stop_distance);
+  const bool is_blocked = way.free_m < leg.length_m;
+  const double room_m = is_blocked ? std::min(way.free_m - stop_distance, leg.length_m) : leg.length_m;
   double speed = std::min(limits.v_max, stopping_speed(room_m, limits.a_max, period_s));
+  if (is_blocked && only_robots_near(now, way.end))
+    speed =
+        std::max(speed, std::min(creep_speed, stopping_speed(way.free_m - robot_distance_m, limits.a_max, period_s)));
   if (std::abs(curvature) > 1e-9) speed = std::min(speed, limits.omega_max / std::abs(curvature));
   Command command = braking(now);
   command.v_x = std::clamp(toward(now.velocity.v_x, speed, limits.a_max * period_s), 0.0, limits.v_max);
@@ -126,9 +149,9 @@ Command StopAndWait::drive(const Observation& now, const Leg& leg, const Footpri
   return command;
 }
 
-// How far the robot can go on its leg before its footprint meets something; looks no farther than `needed_m`.
-double StopAndWait::free_length_m(const Observation& now, const Leg& leg, const FootprintCheck& check,
-                                  double needed_m) const {
+// Looks no farther than `needed_m`.
+StopAndWait::Way StopAndWait::look_ahead(const Observation& now, const Leg& leg, const FootprintCheck& check,
+                                         double needed_m) const {
   constexpr double spacing_m = 0.05;
   const Vec2 robot = toolkit::position(now.pose);
   const double look_m = std::min(leg.length_m, needed_m);
@@ -138,9 +161,9 @@ double StopAndWait::free_length_m(const Observation& now, const Leg& leg, const 
     const Vec2 on_leg = tracker_.point_at(tracker_.progress_m() + on_leg_m);
     const Vec2 on_way = toolkit::lerp(robot, leg.ahead, std::min(1.0, on_leg_m / steer_to_m));
     const Vec2 point = on_leg_m < steer_to_m ? on_way : on_leg;
-    if (check.cost(directed(point, now.pose.theta)) == in_collision) return on_leg_m;
+    if (check.cost(directed(point, now.pose.theta)) == in_collision) return {on_leg_m, point};
   }
-  return std::max(leg.length_m, needed_m);
+  return {std::max(leg.length_m, needed_m), {}};
 }
 
 }  // namespace dmrp::controllers

@@ -2,7 +2,8 @@
 // stop_and_wait.hpp: straight along the path, and brakes for anything ahead: the lower bound of local controllers.
 //
 // The robot drives the straight legs of its path, turns in place where they meet, never leaves them, and waits before
-// whatever stands on the leg ahead until that has left. It predicts nothing.
+// whatever stands on the leg ahead until that has left. It predicts nothing. Up to another robot it creeps nearer, so that
+// robots which change places in a cycle can all begin.
 #pragma once
 
 #include <vector>
@@ -33,9 +34,15 @@ class StopAndWait final : public PathController {
     double length_m;  // from the robot to its end
   };
 
+  // How far the robot can go on its leg before its footprint meets something, and where its centre is then.
+  struct Way {
+    double free_m;
+    Vec2 end;
+  };
+
   Leg current_leg();
   Command drive(const Observation& now, const Leg& leg, const FootprintCheck& check) const;
-  double free_length_m(const Observation& now, const Leg& leg, const FootprintCheck& check, double needed_m) const;
+  Way look_ahead(const Observation& now, const Leg& leg, const FootprintCheck& check, double needed_m) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
   std::vector<double> corners_m_;  // arc lengths at which the path turns

@@ -27,8 +27,8 @@ Descriptor ComputeTime::describe() {
              "share of those calls that ran out of their time budget (status TIMEOUT); undefined without a call")
       .wall_clock()
       .value("control_call_mean", "ms", lower, robots,
-             "mean wall time of the robot's calls of step(); system: over the calls of all robots; undefined without "
-             "a call")
+             "mean wall time of the robot's calls of step(); system: over the calls of all robots, or of step_all(); "
+             "undefined without a call")
       .wall_clock()
       .value("control_call_p99", "ms", lower, robots,
              "99th percentile of the same by nearest rank; system: over the calls of all robots; undefined without a "
@@ -43,6 +43,7 @@ Descriptor ComputeTime::describe() {
 void ComputeTime::begin(const dmrp_plan*) {
   planning_ = {};
   control_.assign(world().robots().size(), {});
+  central_ = {};
 }
 
 void ComputeTime::observe(const Sample& sample) {
@@ -51,7 +52,7 @@ void ComputeTime::observe(const Sample& sample) {
       planning_.durations_ns.push_back(call.duration_ns);
       planning_.missed += call.status == DMRP_TIMEOUT;
     } else if (call.kind == DMRP_CALL_CONTROL) {
-      Calls& own = control_[call.robot];
+      Calls& own = call.robot < control_.size() ? control_[call.robot] : central_;
       own.durations_ns.push_back(call.duration_ns);
       own.missed += call.duration_ns > world()->control_period_ns;
     }
@@ -83,7 +84,7 @@ void ComputeTime::finish(const TrialEnd&, MetricSink& sink) {
   sink.system("plan_call_mean", planning_.mean_ms());
   sink.system("plan_call_p99", planning_.p99_ms());
   sink.system("plan_missed", planning_.missed_percent());
-  Calls all;
+  Calls all = central_;
   for (std::size_t robot = 0; robot < control_.size(); ++robot) {
     const Calls& own = control_[robot];
     sink.robot("control_call_mean", robot, own.mean_ms());

@@ -26,6 +26,7 @@ class ComputeTime final : public Metric {
 
   Calls planning_;
   std::vector<Calls> control_;  // by robot
+  Calls central_;               // of a controller of all robots
 };
 
 }  // namespace dmrp::metrics

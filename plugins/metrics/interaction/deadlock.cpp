@@ -40,10 +40,11 @@ Descriptor Deadlock::describe() {
   return describe_metric("dmrp.metric.deadlock", "Deadlock")
       .summary("robots that wait for each other in a lasting cycle")
       .source("own definition; cycles of the wait-for graph as in Coffman et al., System Deadlocks, 1971")
-      .value("deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
-             "number of cycles of robots, each held or blocked by the next one for the host's referee "
-             "(dmrp/robot_event.h), that last at least lasting_s; robot: its cycles; undefined if planning failed, and in "
-             "traces of hosts before the referee")
+      .value(
+          "deadlocks", "1", Direction::lower_is_better, Subjects::system_and_robots,
+          "number of cycles of robots, each held or blocked by the next one for the host's referee "
+          "(dmrp/robot_event.h), that last at least lasting_s; robot: its cycles; undefined if planning failed, and in "
+          "traces of hosts before the referee")
       .value("deadlock_time", "s", Direction::lower_is_better, Subjects::system_and_robots,
              "length of the union of these cycles; robot: of its cycles; undefined as deadlocks");
 }

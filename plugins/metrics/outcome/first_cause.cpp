@@ -38,20 +38,27 @@ Descriptor FirstCause::describe() {
              "robots; undefined where nobody does")
       .value("held_behind", "1", Direction::lower_is_better, Subjects::system_and_robots,
              "of a robot that failed: 1 if it is held behind another by the plan's order, else 0; system: sum over "
-             "robots; undefined as first_cause");
+             "robots; undefined as first_cause")
+      .value("after_standstill", "1", Direction::none, Subjects::system_and_robots,
+             "of a robot at a standstill that runs on to the time limit, as some do by chance: 1 if it arrived after "
+             "all, else 0; system: mean over these robots; undefined without such a standstill");
 }
 
 void FirstCause::begin(const dmrp_plan*) {
   classes_.begin(world().robots().size());
+  runs_on_.assign(world().robots().size(), false);
 }
 
 void FirstCause::observe(const Sample& sample) {
   classes_.observe(sample);
+  for (const RobotEvent& event : sample.events)
+    if (event.kind == DMRP_ROBOT_EVENT_RUNS_ON && event.robot < runs_on_.size()) runs_on_[event.robot] = true;
 }
 
 void FirstCause::finish(const TrialEnd& end, MetricSink& sink) {
-  std::vector<double> causes, culprits, held;
-  for (const RobotEnd& robot : end.robots) {
+  std::vector<double> causes, culprits, held, after_standstill;
+  for (std::size_t i = 0; i < end.robots.size(); ++i) {
+    const RobotEnd& robot = end.robots[i];
     const bool failed = classes_.are_known() && robot.failure != DMRP_FAILURE_NONE;
     const bool is_held = robot.failure == DMRP_FAILURE_HELD_BEHIND;
     const bool has_culprit = robot.culprit < end.robots.size();
@@ -59,10 +66,12 @@ void FirstCause::finish(const TrialEnd& end, MetricSink& sink) {
     causes.push_back(failed ? of_culprit != DMRP_FAILURE_NONE ? of_culprit : robot.failure : undefined);
     culprits.push_back(failed && has_culprit ? robot.culprit : undefined);
     held.push_back(failed ? is_held : undefined);
+    after_standstill.push_back(runs_on_[i] ? robot.arrival_ns >= 0 : undefined);
   }
   give(sink, "first_cause", causes, &most_frequent);
   give(sink, "culprit", culprits, &most_frequent);
   give(sink, "held_behind", held, &sum_of_defined);
+  give_mean(sink, "after_standstill", after_standstill);
 }
 
 }  // namespace dmrp::metrics

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dmrp/plugin.hpp>
+#include <vector>
 
 #include "metrics/measure/referee_classes.hpp"
 
@@ -17,6 +18,7 @@ class FirstCause final : public Metric {
 
  private:
   RefereeClasses classes_;
+  std::vector<bool> runs_on_;  // by robot: it was at a standstill that ran on
 };
 
 }  // namespace dmrp::metrics

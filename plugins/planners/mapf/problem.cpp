@@ -28,7 +28,8 @@ void write_path(const PlanningProblem& host_problem, const BasicGridGraph<connec
     leg = agent.leg_after(leg, location);
     t_ns += host_problem.step_duration_ns;
   }
-  sink.path(agent.robot, waypoints);
+  const bool ends_at_goal = leg == agent.last_leg() && path.back() == agent.last_goal();
+  sink.path(agent.robot, waypoints, !ends_at_goal);
 }
 
 void write_resting_robots(const PlanningProblem& host_problem, PlanSink& sink) {

@@ -44,7 +44,7 @@ struct BasicProblem {
 
 using Problem = BasicProblem<4>;
 
-// A robot's locations by time: one for each step, from its start until it rests at its last goal.
+// A robot's locations by time: one for each step, from its start until it rests at its last goal, or a window ends.
 using PathView = std::span<const Location>;
 
 inline std::int32_t cost_of(PathView path) {
@@ -73,7 +73,7 @@ Agent agent_on(const BasicGridGraph<connectivity>& graph, const PlanningRobot& r
 template <Direction connectivity = 4>
 BasicProblem<connectivity> make_problem(const PlanningProblem& problem, bool resting_robots_block);
 
-// Gives the host the path of one active robot.
+// Gives the host the path of one active robot; partial if it does not end at its last goal.
 template <Direction connectivity>
 void write_path(const PlanningProblem& host_problem, const BasicGridGraph<connectivity>& graph, const Agent& agent,
                 PathView path, PlanSink& sink);

@@ -8,8 +8,8 @@ namespace dmrp::planners {
 
 namespace {
 
-// The configurations from the start to rest; without rest at the end after `step_limit` steps or a stop.
-std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t step_limit, std::uint64_t seed,
+// The configurations from the start to rest; without rest at the end after `steps` steps or a stop.
+std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t steps, std::uint64_t seed,
                                     StopSignal& stop) {
   const auto agents = static_cast<std::int32_t>(prepared.problem.agents.size());
   PibtStep pibt(prepared.problem, prepared.tables);
@@ -18,7 +18,7 @@ std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t st
   std::vector<Configuration> configurations = {start_configuration(prepared.problem)};
   std::vector<std::int32_t> steps_underway(prepared.problem.agents.size(), 0);
   std::vector<std::int32_t> order;
-  for (std::int64_t step = 0; step < step_limit && !stop.poll_now(); ++step) {
+  for (std::int64_t step = 0; step < steps && !stop.poll_now(); ++step) {
     const Configuration& now = configurations.back();
     bool all_rest = true;
     for (std::int32_t agent = 0; agent < agents; ++agent) {
@@ -40,6 +40,7 @@ std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t st
 
 Descriptor Pibt::describe() {
   return describe_planner("dmrp.planner.pibt", "PIBT", "1.0.0")
+      .flags(DMRP_FLAG_WINDOWED)
       .summary("all robots step by step, by priority; the fastest for thousands of robots, with expensive plans")
       .source(
           "Okumura, Machida, Defago, Tamura: Priority inheritance with backtracking for iterative multi-agent path "
@@ -48,11 +49,18 @@ Descriptor Pibt::describe() {
 }
 
 Status Pibt::solve(const PlanningProblem& host_problem, const Preparation& prepared, StopSignal& stop, PlanSink& sink) {
-  sink.statistic("lower_bound", prepared.lower_bound());
-  const std::vector<Configuration> configurations = run_pibt(prepared, *step_limit, seed(), stop);
+  const std::uint32_t window_steps = host_problem.window_steps;
+  if (window_steps == 0) sink.statistic("lower_bound", prepared.lower_bound());
+  const std::vector<Configuration> configurations =
+      run_pibt(prepared, window_steps > 0 ? window_steps : *step_limit, seed(), stop);
   std::vector<const Configuration*> sequence;
   for (const Configuration& configuration : configurations) sequence.push_back(&configuration);
   std::vector<std::vector<Location>> paths = paths_of(sequence, prepared.tables);
+  if (window_steps > 0) {
+    if (configurations.size() <= window_steps && stop.raised()) return fail(Status::timeout, "stopped by the host");
+    write_paths(host_problem, prepared.problem, {paths.begin(), paths.end()}, sink);
+    return Status::ok;
+  }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (prepared.tables[i].distance(configurations.back().legs[i], configurations.back().locations[i]) == 0) continue;
     return fail(Status::timeout, stop.raised()

@@ -228,7 +228,7 @@ std::vector<std::vector<Location>> paths_of(const std::vector<const Configuratio
     const auto rests = [&](std::size_t t) {
       return tables[i].distance(configurations[t]->legs[i], configurations[t]->locations[i]) == 0;
     };
-    while (end > 1 && rests(end - 2)) --end;
+    while (end > 1 && rests(end - 1) && rests(end - 2)) --end;
     paths[i].reserve(end);
     for (std::size_t t = 0; t < end; ++t) paths[i].push_back(configurations[t]->locations[i]);
   }

@@ -34,8 +34,8 @@ extern "C" {
 #define DMRP_FLAG_WINDOWED 32u         // planner: can plan the next problem.window_steps alone
 #define DMRP_FLAG_ASSIGNS 64u          // planner: gives tasks to robots, through assign()
 #define DMRP_FLAG_PARALLEL 128u        // instances of this library may be called at the same time
-#define DMRP_FLAG_BATCHED 256u         // controller, with CENTRAL: central in form only. The command of a robot depends
-                                       // on what that robot alone was given
+// Controller, with CENTRAL: central in form only. The command of a robot depends on what that robot alone was given.
+#define DMRP_FLAG_BATCHED 256u
 
 // These bits are for plugins that a host must understand: one that does not know such a bit skips the plugin.
 #define DMRP_FLAGS_NEEDED 0xffff0000u

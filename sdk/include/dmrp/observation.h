@@ -40,7 +40,7 @@ typedef struct dmrp_observation {
   // The current goal; where dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
   const dmrp_goal* goal;
   uint32_t goal_index;
-  uint32_t goal_count;         // of the goals known so far
+  uint32_t goal_count;  // of the goals known so far
   // Where the robot is on the path that its controller was handed last: the arc length of the point that it has reached,
   // which never decreases on one path.
   double progress_m;

@@ -28,14 +28,14 @@ const dmrp_descriptor& describe() {
   return still;
 }
 
-std::int32_t init(const dmrp_host*) {
+std::int32_t init(const dmrp_entry*, const dmrp_host*) {
   return DMRP_OK;
 }
-void deinit() {}
-std::uint32_t plugin_count() {
+void deinit(const dmrp_entry*) {}
+std::uint32_t plugin_count(const dmrp_entry*) {
   return 1;
 }
-const dmrp_descriptor* descriptor(std::uint32_t index) {
+const dmrp_descriptor* descriptor(const dmrp_entry*, std::uint32_t index) {
   return index == 0 ? &describe() : nullptr;
 }
 
@@ -47,7 +47,7 @@ void destroy(dmrp_instance* self) {
   delete self;
 }
 
-std::int32_t create(const dmrp_host*, const char* id, const dmrp_params*, dmrp_plugin* out) {
+std::int32_t create(const dmrp_entry*, const dmrp_host*, const char* id, const dmrp_params*, dmrp_plugin* out) {
   if (std::strcmp(id, describe().id) != 0) return DMRP_ERROR;
   out->self = new (std::nothrow) dmrp_instance();
   if (!out->self) return DMRP_OUT_OF_MEMORY;
@@ -59,4 +59,5 @@ std::int32_t create(const dmrp_host*, const char* id, const dmrp_params*, dmrp_p
 
 }  // namespace
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, init, deinit, plugin_count, descriptor, create};
+DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
+              descriptor,         create};

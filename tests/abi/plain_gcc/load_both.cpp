@@ -32,7 +32,7 @@ dmrp_host make_host() {
 // What is particular to the library that was built with this number.
 void check(const dmrp_entry& entry, int number) {
   const std::string suffix = "_" + std::to_string(number);
-  const dmrp_descriptor& descriptor = *entry.descriptor(0);
+  const dmrp_descriptor& descriptor = *entry.descriptor(&entry, 0);
   const std::string id = descriptor.id;
   expect(id == "org.example.follower" + suffix, "library " + std::to_string(number) + " has the plugin " + id);
   const dmrp_param_spec& spec = *descriptor.params;
@@ -47,7 +47,7 @@ void check(const dmrp_entry& entry, int number) {
   const dmrp_params params = {sizeof(params), 1, sizeof(value), 0, &value};
   dmrp_plugin plugin{};
   plugin.struct_size = sizeof(plugin);
-  expect(entry.create(&host, ("org.example.follower" + suffix).c_str(), &params, &plugin) == DMRP_OK, "create");
+  expect(entry.create(&entry, &host, ("org.example.follower" + suffix).c_str(), &params, &plugin) == DMRP_OK, "create");
   if (!plugin.self) return;
 
   const dmrp_world world{};

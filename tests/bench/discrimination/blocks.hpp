@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 
 namespace dmrp::bench {
 

@@ -10,17 +10,24 @@
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
+#include "core/statistics/holm.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "host/ranking/contest.hpp"
+#include "core/statistics/sign_flip.hpp"
+#include "core/statistics/signed_rank.hpp"
 #include "host/ranking/measures.hpp"
-#include "host/ranking/paired_test.hpp"
-#include "host/ranking/pairs_apart.hpp"
+#include "host/ranking/paired_difference.hpp"
 
 namespace dmrp::bench {
 
 using namespace host;
 
 namespace {
+
+// Intervals of shares need no resamples.
+core::Resampling one_world(std::size_t tasks) {
+  return {std::vector<std::uint32_t>(tasks), core::Scope::these_worlds, 0};
+}
 
 constexpr std::uint64_t halvings = 100;
 
@@ -30,20 +37,41 @@ struct Criteria {
   std::optional<Criterion> time;
 };
 
-// [entry][task]: means over a task's situations; NaN: undefined.
-std::vector<std::vector<double>> by_task(const Contest& contest, const Measures& measures, const Criterion& criterion) {
-  std::map<std::size_t, std::size_t> positions;  // of tasks
-  for (const Situation& situation : contest.situations) positions.try_emplace(situation.task, positions.size());
-  std::vector<std::vector<double>> table;
-  for (const auto& of_entry : contest.trials) {
-    std::vector<std::vector<double>> values(positions.size());
-    for (std::size_t i = 0; i < of_entry.size(); ++i)
-      for (const std::size_t trial : of_entry[i])
-        if (const auto value = measures.value(trial, criterion))
-          values[positions.at(contest.situations[i].task)].push_back(*value);
-    std::vector<double>& row = table.emplace_back();
-    for (const auto& of_task : values) row.push_back(core::mean(of_task));
+// Entries that met the same tasks.
+struct Contest {
+  const Measures& measures;
+  const Tasks& tasks;
+  Findings findings;
+
+  std::vector<std::size_t> trials_of(std::size_t entry) const {
+    std::vector<std::size_t> trials;
+    for (const auto& of_situation : findings.trials[entry])
+      trials.insert(trials.end(), of_situation.begin(), of_situation.end());
+    return trials;
   }
+  // By task; NaN: undefined.
+  std::vector<double> values(std::size_t entry, const Criterion& criterion) const {
+    return task_means(tasks, trials_of(entry), [&](std::size_t trial) { return measures.value(trial, criterion); });
+  }
+  double mean(std::size_t entry, const Criterion& criterion) const {
+    return core::mean(defined(values(entry, criterion)));
+  }
+
+  // Of the tasks that both met.
+  std::vector<double> differences(std::size_t a, std::size_t b, const Criterion& criterion) const {
+    return defined(joint_findings(findings, tasks, std::vector{a, b}, measures.joint(criterion)).differences(0, 1));
+  }
+
+  static std::vector<double> defined(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    return values;
+  }
+};
+
+std::vector<std::vector<double>> by_task(const Contest& contest, const Criterion& criterion) {
+  std::vector<std::vector<double>> table;
+  for (std::size_t entry = 0; entry < contest.findings.entries.size(); ++entry)
+    table.push_back(contest.values(entry, criterion));
   return table;
 }
 
@@ -57,16 +85,48 @@ std::vector<std::vector<double>> complete(const std::vector<std::vector<double>>
   return out;
 }
 
-void test_pairs(const Contest& contest, const Measures& measures, Discrimination& result) {
-  const PairsApart found = pairs_apart(contest, measures);
-  result.pairs = found.pairs;
-  result.separated = found.apart;
+// The test of one pair of entries by one criterion.
+struct PairTest {
+  double p = core::undefined;  // NaN: nothing differs
+  bool is_large = false;
+};
+
+PairTest test_pair(const Contest& contest, std::size_t a, std::size_t b, const Criterion& criterion) {
+  const std::vector<double> differences = contest.differences(a, b, criterion);
+  PairTest test;
+  if (differences.size() < 2) return test;
+  const double least = criterion.share()
+                           ? least_share_difference
+                           : least_time_ratio * std::fmax(contest.mean(a, criterion), contest.mean(b, criterion));
+  test.is_large = std::abs(core::mean(differences)) > least;
+  if (std::all_of(differences.begin(), differences.end(), [](double one) { return std::abs(one) < rounding; }))
+    return test;
+  test.p = criterion.share() ? core::sign_flip_test(differences).p : core::signed_rank_test(differences).p;
+  return test;
+}
+
+void test_pairs(const Contest& contest, const Criteria& criteria, Discrimination& result) {
+  std::vector<Criterion> tested = {criteria.share};
+  if (criteria.time) tested.push_back(*criteria.time);
+  std::vector<PairTest> tests;
+  std::vector<double> p_values;
   std::vector<double> deviations;
   for (std::size_t a = 0; a < result.entries.size(); ++a)
-    for (std::size_t b = a + 1; b < result.entries.size(); ++b) {
-      const std::vector<double> differences = paired_differences(contest, a, b, measures.difference(0));
+    for (std::size_t b = a + 1; b < result.entries.size(); ++b, ++result.pairs) {
+      for (const Criterion& criterion : tested) {
+        tests.push_back(test_pair(contest, a, b, criterion));
+        p_values.push_back(tests.back().p);
+      }
+      const std::vector<double> differences = contest.differences(a, b, criteria.share);
       if (differences.size() > 1) deviations.push_back(core::sample_sd(differences));
     }
+  const std::vector<double> adjusted = core::holm_adjusted(p_values);
+  for (std::size_t pair = 0; pair < result.pairs; ++pair) {
+    bool apart = false;
+    for (std::size_t i = pair * tested.size(); i < (pair + 1) * tested.size(); ++i)
+      apart = apart || (tests[i].is_large && adjusted[i] < significant);
+    result.separated += apart ? 1 : 0;
+  }
   result.median_deviation = deviations.empty() ? core::undefined : core::median(deviations);
   result.tasks_needed = core::pairs_needed(result.median_deviation, least_share_difference, significant);
 }
@@ -115,28 +175,25 @@ double half_agreement(const Criteria& criteria, const std::vector<std::vector<do
   return core::mean(found);
 }
 
-Discrimination discrimination_of(const Contest& contest, const Measures& measures, const Criteria& criteria) {
+Discrimination discrimination_of(const Contest& contest, const Criteria& criteria) {
   Discrimination result;
-  result.scenario = contest.cells.front().scenario;
-  result.robots = contest.cells.front().robots;
-  const auto shares = by_task(contest, measures, criteria.share);
-  const auto times = criteria.time ? by_task(contest, measures, *criteria.time) : std::vector<std::vector<double>>();
+  result.scenario = contest.findings.situations.front().cell.scenario;
+  result.robots = contest.findings.situations.front().cell.robots;
+  const auto shares = by_task(contest, criteria.share);
+  const auto times = criteria.time ? by_task(contest, *criteria.time) : std::vector<std::vector<double>>();
   const auto complete_shares = complete(shares);
   result.tasks = static_cast<std::uint32_t>(complete_shares.front().size());
   std::vector<double> means;
-  for (std::size_t entry = 0; entry < contest.contestants.size(); ++entry) {
-    std::vector<std::size_t> trials;
-    for (const auto& of_situation : contest.trials[entry])
-      trials.insert(trials.end(), of_situation.begin(), of_situation.end());
-    const CombinationLabels& labels = contest.contestants[entry];
+  for (std::size_t entry = 0; entry < contest.findings.entries.size(); ++entry) {
+    const CombinationLabels& labels = contest.findings.entries[entry];
     result.entries.push_back(
-        {labels.global_planner + " + " + labels.local_controller, measures.mean(trials, criteria.share),
-         criteria.time ? measures.mean(trials, *criteria.time) : core::undefined, complete_shares[entry]});
+        {labels.global_planner + " + " + labels.local_controller, contest.mean(entry, criteria.share),
+         criteria.time ? contest.mean(entry, *criteria.time) : core::undefined, complete_shares[entry]});
     means.push_back(result.entries.back().share);
     result.at_ceiling += means.back() >= DiscriminationBars().ceiling - rounding ? 1 : 0;
   }
   result.mean_share = core::mean(means);
-  test_pairs(contest, measures, result);
+  test_pairs(contest, criteria, result);
   result.share_effect = block_effect(complete_shares);
   if (criteria.time) result.time_effect = block_effect(complete(times));
   result.half_agreement = half_agreement(criteria, shares, times);
@@ -171,9 +228,10 @@ std::vector<EntryInRuns> entries_in_all(const Discrimination& result, std::span<
 std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
-  if (measures.criteria().empty() || !measures.criteria().front().share) return {};
+  if (measures.criteria().empty()) return {};
+  const Tasks tasks = tasks_of(trials);
   Criteria criteria = {measures.criteria().front(), {}};
-  if (!measures.criteria().back().share) criteria.time = measures.criteria().back();
+  if (measures.criteria().back().kind == Criterion::Kind::time) criteria.time = measures.criteria().back();
   std::vector<CombinationLabels> cells;
   for (const TrialRecord& trial : trials) {
     const CombinationLabels cell = {trial.scenario, trial.robots, "", "", trial.pedestrian_model};
@@ -181,11 +239,11 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
   }
   std::vector<Discrimination> all;
   for (const CombinationLabels& cell : cells) {
-    const Contest contest = make_contest(trials, Contestants::planners_and_controllers, [&](const auto& labels) {
-      return labels.scenario == cell.scenario && labels.robots == cell.robots &&
-             labels.pedestrian_model == cell.pedestrian_model;
-    });
-    if (contest.contestants.size() > 1) all.push_back(discrimination_of(contest, measures, criteria));
+    const Contest contest{measures, tasks, make_findings(trials, tasks, [&](std::size_t i) {
+                            const auto split = by_planner_and_controller(trials[i]);
+                            return split && split->cell == cell ? split : std::nullopt;
+                          })};
+    if (contest.findings.entries.size() > 1) all.push_back(discrimination_of(contest, criteria));
   }
   return all;
 }
@@ -209,13 +267,11 @@ std::optional<RunInteraction> run_interaction(const Discrimination& result, std:
   out.effect = interaction_effect(table);
   if (table.size() != 2 || runs.size() != 2) return out;
   std::vector<double> all;
-  std::vector<std::vector<double>> clusters;
-  for (std::size_t task = 0; task < table[0][0].size(); ++task) {
+  for (std::size_t task = 0; task < table[0][0].size(); ++task)
     all.push_back((table[0][1][task] - table[0][0][task]) - (table[1][1][task] - table[1][0][task]));
-    clusters.push_back({all.back()});
-  }
-  out.difference = core::mean(all);
-  out.interval = core::cluster_bootstrap_interval(clusters);
+  const core::MeanOfTasks over_tasks = core::mean_of_tasks(all, core::Interval{-2.0, 2.0}, one_world(all.size()));
+  out.difference = over_tasks.mean;
+  out.interval = over_tasks.interval;
   return out;
 }
 
@@ -229,13 +285,10 @@ std::optional<EntryContrast> contrast(const Discrimination& result, const std::s
   const auto b = entry(second);
   if (a == result.entries.end() || b == result.entries.end()) return std::nullopt;
   std::vector<double> differences;
-  std::vector<std::vector<double>> clusters;
-  for (std::size_t task = 0; task < a->shares.size(); ++task) {
-    differences.push_back(b->shares[task] - a->shares[task]);
-    clusters.push_back({differences.back()});
-  }
-  return EntryContrast{core::mean(differences), core::cluster_bootstrap_interval(clusters),
-                       paired_test(differences, PairedTest::sign_flip).p};
+  for (std::size_t task = 0; task < a->shares.size(); ++task) differences.push_back(b->shares[task] - a->shares[task]);
+  const core::MeanOfTasks over_tasks =
+      core::difference_of_tasks(differences, core::share_bounds, one_world(differences.size()));
+  return EntryContrast{over_tasks.mean, over_tasks.interval, core::sign_flip_test(differences).p};
 }
 
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars) {

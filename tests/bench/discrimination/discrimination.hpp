@@ -8,17 +8,20 @@
 #include <string>
 #include <vector>
 
-#include "host/ranking/pairs_apart.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
 #include "tests/bench/discrimination/blocks.hpp"
 
 namespace dmrp::bench {
 
+// The smallest differences of interest: of the share, and of the time relative to the slower entry's.
+inline constexpr double least_share_difference = 0.05;
+inline constexpr double least_time_ratio = 0.05;
+
 // What a set of tasks must reach; fixed before any result was seen.
 struct DiscriminationBars {
-  double mean_low = host::least_mean_share;  // of the share over all entries
-  double mean_high = host::most_mean_share;
+  double mean_low = 0.3;  // of the share over all entries
+  double mean_high = 0.9;
   double ceiling = 0.98;  // an entry at or above it has no room left; at most half of them
   double separated_pairs = 0.5;
   double effect = 0.14;      // partial eta squared, tasks as blocks

@@ -33,7 +33,6 @@ class AnyDrive final : public dmrp::LocalController {
 
   dmrp::Status start(const dmrp::Start& start) override {
     path_.clear();
-    steering_ = 0.0;
     kinematics_ = start.world.robots()[static_cast<std::size_t>(start.robot)].kinematics;
     return dmrp::Status::ok;
   }
@@ -45,7 +44,7 @@ class AnyDrive final : public dmrp::LocalController {
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
-    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const double end_m = arcs_.back();
     const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.6, end_m));
     const dmrp::Vec2 offset = toolkit::to_local(now.pose, ahead);
     const double left_m = std::max(0.0, end_m - now.progress_m);
@@ -92,19 +91,18 @@ class AnyDrive final : public dmrp::LocalController {
       command.omega = 2.0 * toolkit::difference(now.pose.theta, now.goal.pose.theta);
   }
 
-  // The circle through the point ahead, as far as the steering reaches in this period; backwards to a point behind.
-  void steer(const dmrp::Observation& now, dmrp::Vec2 offset, double speed, dmrp::Command& command) {
+  // The circle through the point ahead, as far as the wheels turn in this period from where they are; backwards to a point behind.
+  static void steer(const dmrp::Observation& now, dmrp::Vec2 offset, double speed, dmrp::Command& command) {
     const double curvature = 2.0 * offset.y / std::max(toolkit::squared_norm(offset), 1e-9);
     const double wanted =
         std::clamp(std::atan(now.limits.wheelbase_m * curvature), -now.limits.steering_max, now.limits.steering_max);
     const double reach = now.limits.steering_rate_max * dmrp::seconds(now.dt_ns);
-    steering_ += std::clamp(wanted - steering_, -reach, reach);
+    const double steering = now.steering_angle + std::clamp(wanted - now.steering_angle, -reach, reach);
     command.v_x = offset.x < 0.0 ? std::max(now.limits.v_min, -speed) : speed;
-    command.omega = command.v_x * std::tan(steering_) / now.limits.wheelbase_m;
+    command.omega = command.v_x * std::tan(steering) / now.limits.wheelbase_m;
   }
 
   std::uint32_t kinematics_ = DMRP_KINEMATICS_DIFFERENTIAL;
-  double steering_ = 0.0;  // rad
   std::vector<dmrp::Waypoint> path_;
   std::vector<double> arcs_;
 };

@@ -23,13 +23,12 @@ class KinodynamicFollower final : public dmrp::LocalController {
     path_.clear();
     for (std::size_t i = 0; i < path.size(); ++i)
       path_.push_back({path[i], has_velocity(path) ? velocity(path, i) : mean_speed(path, i)});
+    path_.back().v = 0.0;  // also where the plan goes on
   }
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
     const waypoint_with_velocity& next = path_[std::min<std::size_t>(now.progress_waypoint + 1, path_.size() - 1)];
-    if (now.progress_waypoint >= now.released_waypoint && now.progress_waypoint + 1 < path_.size())
-      return dmrp::Status::ok;  // stands until the way is free
     const double left_m = toolkit::distance(toolkit::position(now.pose), toolkit::position(path_.back().known));
     const double error =
         left_m < 0.1 ? 0.0 : toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, next.known));

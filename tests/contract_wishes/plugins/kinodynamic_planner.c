@@ -114,13 +114,15 @@ static int32_t plan(dmrp_instance* self, const dmrp_planning_problem* problem, d
 
 static const dmrp_global_planner planner = {.struct_size = sizeof(dmrp_global_planner), .plan = plan};
 
+static const dmrp_planner_traits traits = {sizeof(dmrp_planner_traits), DMRP_CONNECTIVITY_ANY};
+
 static const dmrp_descriptor kinodynamic = {.struct_size = sizeof(dmrp_descriptor),
                                             .kind = DMRP_KIND_GLOBAL_PLANNER,
                                             .id = "org.example.kinodynamic",
                                             .name = "Kinodynamic planner",
                                             .version = "0.1.0",
-                                            .connectivity = DMRP_CONNECTIVITY_ANY,
-                                            .flags = DMRP_FLAG_UNCOORDINATED};
+                                            .flags = DMRP_FLAG_UNCOORDINATED,
+                                            .traits = &traits};
 
 static int32_t start(dmrp_instance* self, const dmrp_start* start) {
   (void)self;
@@ -130,18 +132,25 @@ static int32_t start(dmrp_instance* self, const dmrp_start* start) {
 static void destroy(dmrp_instance* self) {
   free(self);
 }
-static int32_t init(const dmrp_host* host) {
+static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
+  (void)self;
   (void)host;
   return DMRP_OK;
 }
-static void deinit(void) {}
-static uint32_t plugin_count(void) {
+static void deinit(const dmrp_entry* self) {
+  (void)self;
+}
+static uint32_t plugin_count(const dmrp_entry* self) {
+  (void)self;
   return 1;
 }
-static const dmrp_descriptor* descriptor(uint32_t index) {
+static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
+  (void)self;
   return index == 0 ? &kinodynamic : NULL;
 }
-static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
+static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* params,
+                      dmrp_plugin* out) {
+  (void)self;
   (void)params;
   if (strcmp(id, kinodynamic.id) != 0) return DMRP_ERROR;
   out->self = (dmrp_instance*)malloc(sizeof(dmrp_instance));
@@ -153,4 +162,5 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, init, deinit, plugin_count, descriptor, create};
+DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
+              descriptor,         create};

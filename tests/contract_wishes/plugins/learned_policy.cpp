@@ -63,7 +63,7 @@ class LearnedPolicy final : public dmrp::LocalController {
 
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
-    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const double end_m = arcs_.back();
     const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.7, end_m));
     const double left_m = toolkit::distance(toolkit::position(now.pose), ahead);
     const double bearing = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, ahead));

@@ -33,7 +33,7 @@ class LifelongController final : public dmrp::LocalController {
     // a goal without a way to it yet: a new path will come
     if (path_.back().goal_index < now.goal_index) return dmrp::Status::ok;
 
-    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const double end_m = arcs_.back();
     const double ahead_m = std::min(now.progress_m + 0.6, end_m);
     const double error =
         toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, toolkit::point_at(path_, arcs_, ahead_m)));

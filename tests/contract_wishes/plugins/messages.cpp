@@ -50,7 +50,7 @@ class Messages final : public dmrp::LocalController {
     });
     if (waits) return dmrp::Status::ok;  // stands
 
-    const double end_m = arcs_[std::min<std::size_t>(now.released_waypoint, path_.size() - 1)];
+    const double end_m = arcs_.back();
     const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.5, end_m));
     const double error = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, ahead));
     const double to_m = toolkit::distance(toolkit::position(now.pose), ahead);

@@ -58,7 +58,7 @@ class OneAtATime final : public dmrp::CentralController {
   };
 
   static dmrp::Command follow(const Course& course, const dmrp::Observation& now) {
-    const double end_m = course.arcs[std::min<std::size_t>(now.released_waypoint, course.path.size() - 1)];
+    const double end_m = course.arcs.back();
     const dmrp::Vec2 ahead = toolkit::point_at(course.path, course.arcs, std::min(now.progress_m + 0.5, end_m));
     const double error = toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, ahead));
     const double left_m = toolkit::distance(toolkit::position(now.pose), ahead);

@@ -22,7 +22,7 @@ inline dmrp::Status misbehave(const std::string& fault) {
   if (fault == "throw") throw std::runtime_error("thrown on purpose");
   if (fault == "throw_number") throw 42;
   if (fault == "rounding") std::fesetround(FE_UPWARD);
-  if (fault == "unknown_status") return static_cast<dmrp::Status>(42);
+  if (fault == "unknown_status") return static_cast<dmrp::Status>(99);
   if (fault == "hang")
     for (volatile bool on = true; on;) {
     }

@@ -16,6 +16,9 @@ static const dmrp_param_spec params[] = {{.key = "rate",
                                           .minimum = 0.0,
                                           .maximum = 1.0}};
 
+static const dmrp_controller_traits traits = {.struct_size = sizeof(dmrp_controller_traits),
+                                              .kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL};
+
 static const dmrp_descriptor turner = {.struct_size = sizeof(dmrp_descriptor),
                                        .kind = DMRP_KIND_LOCAL_CONTROLLER,
                                        .id = "org.example.turner",
@@ -27,7 +30,7 @@ static const dmrp_descriptor turner = {.struct_size = sizeof(dmrp_descriptor),
                                        .params = params,
                                        .param_count = 1,
                                        .param_stride = sizeof(dmrp_param_spec),
-                                       .kinematics = 1u << DMRP_KINEMATICS_DIFFERENTIAL};
+                                       .traits = &traits};
 
 static int32_t set_path(dmrp_instance* self, const dmrp_path_update* update) {
   (void)self;
@@ -52,19 +55,26 @@ static void destroy(dmrp_instance* self) {
   free(self);
 }
 
-static int32_t init(const dmrp_host* host) {
+static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
+  (void)self;
   (void)host;
   return DMRP_OK;
 }
-static void deinit(void) {}
-static uint32_t plugin_count(void) {
+static void deinit(const dmrp_entry* self) {
+  (void)self;
+}
+static uint32_t plugin_count(const dmrp_entry* self) {
+  (void)self;
   return 1;
 }
-static const dmrp_descriptor* descriptor(uint32_t index) {
+static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
+  (void)self;
   return index == 0 ? &turner : NULL;
 }
 
-static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* values, dmrp_plugin* out) {
+static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* values,
+                      dmrp_plugin* out) {
+  (void)self;
   if (strcmp(id, turner.id) != 0) {
     host->set_error(host, "no plugin of that id in this library");
     return DMRP_ERROR;
@@ -78,4 +88,5 @@ static int32_t create(const dmrp_host* host, const char* id, const dmrp_params* 
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, 0, DMRP_ABI_DRAFT, init, deinit, plugin_count, descriptor, create};
+DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
+              descriptor,         create};

@@ -33,8 +33,10 @@ struct dmrp_instance {
     return status.empty() ? DMRP_OK : std::stoi(status);
   }
 
-  // How many bytes more than in its header a struct has. 12: newer strides need not be multiples of 8.
-  int extra(const std::string& what) const { return is("newer") ? 12 : is("short " + what) ? -8 : 0; }
+  // How many bytes more than in its header a struct has. Strides are multiples of 8, but for odd ones.
+  int extra(const std::string& what) const {
+    return is("newer") ? 24 : is("short " + what) ? -8 : is("odd stride " + what) ? 12 : 0;
+  }
 
   void log(const std::string& text) const { host->log(host, DMRP_LOG_INFO, text.c_str()); }
 

@@ -27,6 +27,8 @@ const char* const of_controllers[] = {DMRP_EXT_ANNOTATE, DMRP_EXT_LIDAR};
 const char* const of_metrics[] = {DMRP_EXT_WALKING_GRID};
 const dmrp_metric_value_spec odd_value = {"odd", "1", "free cells", DMRP_DIRECTION_NONE, 1u << DMRP_SUBJECT_SYSTEM,
                                           0,     0};
+dmrp_planner_traits planner_traits = {sizeof(planner_traits), DMRP_CONNECTIVITY_4};
+dmrp_metric_traits metric_traits = {sizeof(metric_traits), 0, &odd_value, 1, sizeof(odd_value)};
 
 dmrp_descriptor described(std::uint32_t kind, const char* id, std::uint32_t flags = 0) {
   dmrp_descriptor out{};
@@ -39,7 +41,7 @@ dmrp_descriptor described(std::uint32_t kind, const char* id, std::uint32_t flag
   out.params = &does;
   out.param_count = 1;
   out.param_stride = sizeof(does);
-  if (kind == DMRP_KIND_GLOBAL_PLANNER) out.connectivity = DMRP_CONNECTIVITY_4;
+  if (kind == DMRP_KIND_GLOBAL_PLANNER) out.traits = &planner_traits;
   if (kind == DMRP_KIND_LOCAL_CONTROLLER) {
     out.uses = of_controllers;
     out.uses_count = std::size(of_controllers);
@@ -47,9 +49,7 @@ dmrp_descriptor described(std::uint32_t kind, const char* id, std::uint32_t flag
   if (kind == DMRP_KIND_METRIC) {
     out.needed = of_metrics;
     out.needed_count = std::size(of_metrics);
-    out.values = &odd_value;
-    out.value_count = 1;
-    out.value_stride = sizeof(odd_value);
+    out.traits = &metric_traits;
   }
   return out;
 }
@@ -80,7 +80,8 @@ const void* table_of(const Kind& kind, dmrp_instance& self) {
   return self.table.data();
 }
 
-std::int32_t create(const dmrp_host* host, const char* id, const dmrp_params* params, dmrp_plugin* out) {
+std::int32_t create(const dmrp_entry*, const dmrp_host* host, const char* id, const dmrp_params* params,
+                    dmrp_plugin* out) {
   for (const Kind& kind : kinds) {
     if (std::strcmp(kind.descriptor.id, id) != 0) continue;
     auto self = std::make_unique<dmrp_instance>();
@@ -108,13 +109,14 @@ using namespace dmrp::test;
 
 extern "C" {
 extern DMRP_EXPORT dmrp_entry dmrp_entry_v1;
-dmrp_entry dmrp_entry_v1 = {sizeof(dmrp_entry),
-                            DMRP_ABI_MINOR,
-                            0,
-                            DMRP_ABI_DRAFT,
-                            [](const dmrp_host*) -> std::int32_t { return DMRP_OK; },
-                            [] {},
-                            []() -> std::uint32_t { return std::size(kinds); },
-                            [](std::uint32_t index) -> const dmrp_descriptor* { return &kinds[index].descriptor; },
-                            &create};
+dmrp_entry dmrp_entry_v1 = {
+    sizeof(dmrp_entry),
+    DMRP_ABI_MINOR,
+    0,
+    DMRP_ABI_DRAFT,
+    [](const dmrp_entry*, const dmrp_host*) -> std::int32_t { return DMRP_OK; },
+    [](const dmrp_entry*) {},
+    [](const dmrp_entry*) -> std::uint32_t { return std::size(kinds); },
+    [](const dmrp_entry*, std::uint32_t index) -> const dmrp_descriptor* { return &kinds[index].descriptor; },
+    &create};
 }

@@ -22,9 +22,8 @@ inline std::int32_t give_path(const dmrp_instance& self, const dmrp_planning_pro
     t_ns += problem.step_duration_ns;
   }
   if (self.is("reserved waypoint")) waypoints.push_back({robot.goals->pose.x, robot.start.y, 0.0, t_ns, 0, 7});
-  const std::uint32_t reserved = self.is("reserved path") ? 7 : 0;
-  const Grown<dmrp_path> path({0, waypoints.count(), waypoints.stride(), reserved, waypoints.data()},
-                              self.extra("path"));
+  const std::uint32_t flags = self.is("unknown flags") ? 8 : self.is("partial") ? DMRP_PATH_PARTIAL : 0;
+  const Grown<dmrp_path> path({0, waypoints.count(), waypoints.stride(), flags, waypoints.data()}, self.extra("path"));
   return sink->path(sink, index, path.get());
 }
 
@@ -34,6 +33,6 @@ inline std::int32_t plan(dmrp_instance* self, const dmrp_planning_problem* probl
   return self->status_of("plan");
 }
 
-inline constexpr dmrp_global_planner planner_table = {sizeof(dmrp_global_planner), 0, &plan};
+inline constexpr dmrp_global_planner planner_table = {sizeof(dmrp_global_planner), 0, &plan, nullptr};
 
 }  // namespace dmrp::test

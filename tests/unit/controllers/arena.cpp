@@ -66,11 +66,6 @@ Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s) {
           }};
 }
 
-Walker robot_of(const Trip& other) {
-  return {0.25, [&other](double, dmrp_vec2) { return toolkit::position(other.pose()); }, DMRP_AGENT_ROBOT,
-          [&other] { return other.velocity(); }};
-}
-
 std::vector<dmrp_vec2> metre_path(const std::vector<dmrp_vec2>& corners) {
   std::vector<dmrp_vec2> path = {corners.front()};
   for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -116,7 +111,9 @@ void Trip::start() {
   t_ns_ = 0;
   settled_ns_ = 0;
   no_solution_s_ = 0.0;
-  sent_revision_ = 0;
+  drawn_revision_ = 0;
+  handed_ = 0;
+  update_ = 0;
   observation_ = {};
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
   goal_.tolerance_m = 0.2;
@@ -161,7 +158,8 @@ void Trip::control_period() {
 void Trip::decide() {
   if (finished()) return;
   if (course_.change) course_.change(course_, drive_.time_s, pose_);
-  if (course_.revision != sent_revision_) send_path();
+  if (course_.revision != drawn_revision_) draw_path();
+  hand_path();
   sensors_.set_boxes(course_.boxes);
   track();
   sensors_.look(pose_, t_ns_, bodies_, agents_);
@@ -169,8 +167,9 @@ void Trip::decide() {
   command();
 }
 
-void Trip::send_path() {
-  sent_revision_ = course_.revision;
+void Trip::draw_path() {
+  drawn_revision_ = course_.revision;
+  handed_ = 0;
   waypoints_.clear();
   for (const dmrp_vec2 point : course_.path) {
     dmrp_waypoint waypoint{};
@@ -183,12 +182,20 @@ void Trip::send_path() {
   toolkit::arc_lengths(waypoints_, arcs_);
   observation_.progress_m = 0.0;
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
-  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints_.size()), sizeof(dmrp_waypoint), 0,
-                          waypoints_.data()};
-  const dmrp_path_update update = {sizeof(update), 0, course_.revision, &path, 0, 0};
+}
+
+// The path up to the last waypoint that is released, whenever that is another one.
+void Trip::hand_path() {
+  const auto all = static_cast<std::uint32_t>(waypoints_.size());
+  const std::uint32_t count = course_.released < all ? course_.released + 1 : all;
+  if (count == handed_) return;
+  std::vector<dmrp_waypoint> handed(waypoints_.begin(), waypoints_.begin() + count);
+  const dmrp_path path = {sizeof(path), count, sizeof(dmrp_waypoint), count < all ? DMRP_PATH_PARTIAL : 0,
+                          handed.data()};
+  const dmrp_path_update update = {sizeof(update), 0, ++update_, &path, handed_ > 0 ? DMRP_PATH_CONTINUES : 0, 0};
+  handed_ = count;
   if (plugin_->as<dmrp_local_controller>().set_path(plugin_->self(), &update) != DMRP_OK)
     drive_.breaches.push_back("set_path() failed");
-  waypoints_.shrink_to_fit();
 }
 
 void Trip::track() {
@@ -223,13 +230,13 @@ void Trip::observe() {
   now.applied = applied;
   now.goal = &goal_;
   now.goal_count = 1;
+  now.goal_stride = sizeof(goal_);
   const toolkit::PathPlace place =
       toolkit::project(waypoints_, arcs_, toolkit::position(pose_), progress_m, progress_m + 2.0);
   now.progress_m = place.arc_m;
   drive_.path_deviation_m = std::max(drive_.path_deviation_m, place.distance_m);
   while (now.progress_waypoint + 1 < waypoints_.size() && arcs_[now.progress_waypoint + 1] <= place.arc_m)
     ++now.progress_waypoint;
-  now.released_waypoint = std::min(course_.released, static_cast<std::uint32_t>(waypoints_.size() - 1));
   now.limits = &limits_;
   now.footprint = &footprint_;
   now.agents = agents_.data();
@@ -347,27 +354,34 @@ Drive run(const std::string& controller, const Course& course, const ParamOverri
   return trip.result();
 }
 
-void drive_together(const std::vector<Trip*>& trips) {
-  const auto is_finished = [](const Trip* trip) { return trip->finished(); };
+std::vector<Drive> drive_together(const std::string& controller, std::vector<Course> courses,
+                                  const ParamOverrides& overrides) {
+  // the courses read the trips only while these drive
+  std::vector<std::unique_ptr<Trip>> trips(courses.size());
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    for (std::size_t k = 0; k < courses.size(); ++k) {
+      if (k == i) continue;
+      courses[i].walkers.push_back({courses[k].body.radius_m,
+                                    [&trips, k](double, dmrp_vec2) { return toolkit::position(trips[k]->pose()); },
+                                    DMRP_AGENT_ROBOT, [&trips, k] { return trips[k]->velocity(); }});
+    }
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    trips[i] = std::make_unique<Trip>(controller, std::move(courses[i]), overrides);
+  const auto is_finished = [](const auto& trip) { return trip->finished(); };
   while (!std::all_of(trips.begin(), trips.end(), is_finished)) {
-    for (Trip* trip : trips) trip->decide();
+    for (const auto& trip : trips) trip->decide();
     for (std::int64_t k = 0; k < period_ns / step_ns; ++k)
-      for (Trip* trip : trips) trip->drive_on();
+      for (const auto& trip : trips) trip->drive_on();
   }
+  std::vector<Drive> drives;
+  for (const auto& trip : trips) drives.push_back(trip->result());
+  return drives;
 }
 
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides) {
-  // the first reads the second's state only while it drives
-  const Trip* second_trip = nullptr;
-  one.walkers.push_back({0.25, [&](double, dmrp_vec2) { return toolkit::position(second_trip->pose()); },
-                         DMRP_AGENT_ROBOT, [&] { return second_trip->velocity(); }});
-  Trip first(controller, std::move(one), overrides);
-  other.walkers.push_back(robot_of(first));
-  Trip second(controller, std::move(other), overrides);
-  second_trip = &second;
-  drive_together({&first, &second});
-  return {first.result(), second.result()};
+  const std::vector<Drive> drives = drive_together(controller, {std::move(one), std::move(other)}, overrides);
+  return {drives[0], drives[1]};
 }
 
 }  // namespace dmrp::test

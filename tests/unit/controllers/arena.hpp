@@ -33,9 +33,6 @@ struct Walker {
 Walker standing(dmrp_vec2 at);
 Walker walking(dmrp_vec2 from, dmrp_vec2 to, double speed, double start_s = 0.0);  // then stands
 
-class Trip;
-Walker robot_of(const Trip& other);  // `other` must outlive it
-
 // What drives. No corners: a disc.
 struct Body {
   std::uint32_t kinematics = DMRP_KINEMATICS_DIFFERENTIAL;
@@ -64,7 +61,7 @@ struct Course {
   // `released`.
   std::function<void(Course&, double t_s, const dmrp_pose&)> change;
   std::uint64_t revision = 1;
-  std::uint32_t released = UINT32_MAX;
+  std::uint32_t released = UINT32_MAX;  // the waypoint at which the controller's path ends
 };
 
 struct Drive {
@@ -105,7 +102,8 @@ class Trip {
   void drive_on();
 
  private:
-  void send_path();
+  void draw_path();
+  void hand_path();
   void observe();
   void track();
   void command();
@@ -134,7 +132,9 @@ class Trip {
   std::vector<double> arcs_;
   std::vector<core::Disc> bodies_;
   std::vector<dmrp_agent> agents_;
-  std::uint64_t sent_revision_ = 0;
+  std::uint64_t drawn_revision_ = 0;  // of the course
+  std::uint32_t handed_ = 0;          // waypoints that the controller has; 0: none of this revision
+  std::uint64_t update_ = 0;
   std::int64_t t_ns_ = 0;
   dmrp_pose pose_{};
   dmrp_twist velocity_{};
@@ -146,11 +146,12 @@ class Trip {
 // Drives until the goal or the course's time limit.
 Drive run(const std::string& controller, const Course& course, const ParamOverrides& overrides = {});
 
-// Drives the robots of one world until each has arrived or reached its time limit. Each must have the others among its
-// walkers.
-void drive_together(const std::vector<Trip*>& trips);
+// Drives the robots of one world, each with an instance of its own and the others among its walkers, until each has
+// arrived or reached its time limit.
+std::vector<Drive> drive_together(const std::string& controller, std::vector<Course> courses,
+                                  const ParamOverrides& overrides = {});
 
-// The same for two robots with one controller; adds each robot to the other's walkers.
+// The same for two.
 std::array<Drive, 2> drive_two(const std::string& controller, Course one, Course other,
                                const ParamOverrides& overrides = {});
 

@@ -53,9 +53,12 @@ TEST_CASE("The library describes its controllers") {
     const auto is_one_of = [&](const std::vector<std::string>& ids) {
       return std::find(ids.begin(), ids.end(), controller.id) != ids.end();
     };
-    CHECK((descriptor->kinematics & 1u << DMRP_KINEMATICS_DIFFERENTIAL) != 0);
-    CHECK(((descriptor->kinematics & 1u << DMRP_KINEMATICS_HOLONOMIC) != 0) == is_one_of(drive_holonomic_robots));
-    CHECK(((descriptor->kinematics & 1u << DMRP_KINEMATICS_ACKERMANN) != 0) == is_one_of(drive_car_like_robots));
+    CHECK((dmrp::test::traits_of<dmrp_controller_traits>(*descriptor).kinematics &
+           1u << DMRP_KINEMATICS_DIFFERENTIAL) != 0);
+    CHECK(((dmrp::test::traits_of<dmrp_controller_traits>(*descriptor).kinematics & 1u << DMRP_KINEMATICS_HOLONOMIC) !=
+           0) == is_one_of(drive_holonomic_robots));
+    CHECK(((dmrp::test::traits_of<dmrp_controller_traits>(*descriptor).kinematics & 1u << DMRP_KINEMATICS_ACKERMANN) !=
+           0) == is_one_of(drive_car_like_robots));
     CHECK(descriptor->flags == (controller.reverses ? DMRP_FLAG_BACKWARDS : 0u));
     for (std::uint32_t i = 0; i < descriptor->param_count; ++i) {
       const dmrp_param_spec& spec = *DMRP_AT(dmrp_param_spec, descriptor->params, descriptor->param_stride, i);

@@ -244,6 +244,8 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
   const auto& controller = plugin.as<dmrp_local_controller>();
   std::vector<dmrp_waypoint> waypoints;
   std::vector<double> arcs;
+  std::size_t handed = 0;  // waypoints of these that the controller has
+  std::uint32_t handed_for = 0;
   dmrp_observation now{};
   std::uint64_t revision = 0;
   for (int step = 0; step < steps; ++step) {
@@ -255,10 +257,7 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
       now.progress_m = 0.0;
       now.progress_waypoint = 0;
       now.goal_index = 0;
-      const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
-                              waypoints.data()};
-      const dmrp_path_update update = {sizeof(update), 0, ++revision, &path};
-      demand(step, controller.set_path(plugin.self(), &update) == DMRP_OK, "set_path() failed");
+      handed = 0;
     }
     if (now.goal_index < waypoints.back().goal_index && random.chance(0.03)) ++now.goal_index;
     for (dmrp_agent& agent : agents) {
@@ -269,17 +268,28 @@ RandomDrive drive_at_random(PluginUnderTest& plugin, std::uint64_t seed, int ste
     const auto goal_end = std::find_if_not(waypoints.begin(), waypoints.end(), is_of_goal) - 1;
     if (step % 40 == 0) goal.pose.theta = random.chance(0.5) ? NAN : random.uniform(-3.2, 3.2);
     goal.pose = {goal_end->x, goal_end->y, goal.pose.theta};
+    if (handed == 0 || handed_for != now.goal_index || step % 10 == 0) {
+      const std::size_t most = static_cast<std::size_t>(goal_end - waypoints.begin()) + 1;
+      const std::size_t least = std::min<std::size_t>(now.progress_waypoint + 1, most);
+      const std::size_t count = random.chance(0.5) ? most : least + random.below(most - least + 1);
+      const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(count), sizeof(dmrp_waypoint),
+                              count < most ? DMRP_PATH_PARTIAL : 0, waypoints.data()};
+      const dmrp_path_update update = {sizeof(update), 0, revision + 1, &path, handed > 0 ? DMRP_PATH_CONTINUES : 0, 0};
+      if (count != handed) {
+        ++revision;
+        demand(step, controller.set_path(plugin.self(), &update) == DMRP_OK, "set_path() failed");
+      }
+      handed = count;
+      handed_for = now.goal_index;
+    }
     const toolkit::PathPlace place =
         toolkit::project(waypoints, arcs, toolkit::position(pose), now.progress_m, now.progress_m + 2.0);
-    now.progress_m = std::max(now.progress_m, place.arc_m);
-    while (now.progress_waypoint + 1 < waypoints.size() && arcs[now.progress_waypoint + 1] <= now.progress_m)
+    now.progress_m = std::min(std::max(now.progress_m, place.arc_m), arcs[handed - 1]);
+    while (now.progress_waypoint + 1 < handed && arcs[now.progress_waypoint + 1] <= now.progress_m)
       ++now.progress_waypoint;
-    if (step % 10 == 0)
-      now.released_waypoint =
-          static_cast<std::uint32_t>(random.chance(0.5) ? waypoints.size() - 1 : random.below(waypoints.size()));
-    now.released_waypoint = std::min(now.released_waypoint, static_cast<std::uint32_t>(waypoints.size() - 1));
     now.pose = pose;
     now.goal = &goal;
+    now.goal_stride = sizeof(goal);
     now.goal_count = waypoints.back().goal_index + 1;
     now.limits = &limits;
     now.footprint = &footprint;

@@ -16,8 +16,12 @@ const dmrp_entry& entry() {
   return PluginLibrary::load("libdmrp_metrics.so").entry();
 }
 
+const dmrp_metric_traits& measures_of(const dmrp_descriptor& descriptor) {
+  return traits_of<dmrp_metric_traits>(descriptor);
+}
+
 const dmrp_metric_value_spec& value_of(const dmrp_descriptor& descriptor, std::uint32_t index) {
-  return *DMRP_AT(dmrp_metric_value_spec, descriptor.values, descriptor.value_stride, index);
+  return *DMRP_AT(dmrp_metric_value_spec, measures_of(descriptor).values, measures_of(descriptor).value_stride, index);
 }
 
 const dmrp_param_spec* parameter_of(const dmrp_descriptor& descriptor, const std::string& key) {
@@ -57,19 +61,20 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                           "pedestrian_desired_speed",
                                                           "root_conflicts",
                                                           "root_conflicts_waited",
-                                                          "root_conflicts_detoured"};
+                                                          "root_conflicts_detoured",
+                                                          "after_standstill"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance",    "ibtr_by_speed_fraction",
                                         "ldf_by_distance", "pedestrian_progress", "success_at"};
   std::map<std::string, std::string> units;
-  for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
-    const dmrp_descriptor& descriptor = *entry().descriptor(i);
+  for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
+    const dmrp_descriptor& descriptor = *entry().descriptor(&entry(), i);
     INFO(descriptor.id);
     CHECK(descriptor.kind == DMRP_KIND_METRIC);
     CHECK(std::string(descriptor.summary) != "");
     CHECK(std::string(descriptor.source) != "");
-    for (std::uint32_t v = 0; v < descriptor.value_count; ++v) {
+    for (std::uint32_t v = 0; v < measures_of(descriptor).value_count; ++v) {
       const dmrp_metric_value_spec& value = value_of(descriptor, v);
       INFO(value.name);
       CHECK(units.emplace(value.name, value.unit).second);
@@ -136,6 +141,7 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"first_cause", "1"},
                                                        {"culprit", "1"},
                                                        {"held_behind", "1"},
+                                                       {"after_standstill", "1"},
                                                        {"blocked_time", "s"},
                                                        {"blocked_time_person", "s"},
                                                        {"blocked_time_robot", "s"},
@@ -196,9 +202,9 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
                                       "contact_free_success",
                                       "braking_response_success",
                                       "success_at"};
-  for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
-    const Measurement m = measure(entry().descriptor(i)->id, trial);  // checks that every name has a value
-    CHECK(m.events.size() == (std::string(entry().descriptor(i)->id) == "dmrp.metric.success" ? 3 : 0));
+  for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
+    const Measurement m = measure(entry().descriptor(&entry(), i)->id, trial);  // checks that every name has a value
+    CHECK(m.events.size() == (std::string(entry().descriptor(&entry(), i)->id) == "dmrp.metric.success" ? 3 : 0));
     for (const auto& [key, value] : m.values) {
       const std::string& name = std::get<0>(key);
       INFO(name);
@@ -215,9 +221,9 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
   SyntheticTrial trial(2);  // nobody moves, nobody arrives
   trial.planning_grid(6, 1).plan({{{0, 0}, {1, 0}}, {{5, 0}}});
   for (int t = 0; t <= 3; ++t)
-    trial.sample(t, {at(0, 0), at(5, 0)}).calls({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
+    trial.sample(t, {at(0, 0), at(5, 0)}).events({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
   trial.end(3.0, {never, never});
-  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit"};
+  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit", "after_standstill"};
   const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
                                            "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
@@ -227,8 +233,8 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
                                         "group_intrusion_time",     "group_intrusions",      "social_work",
                                         "social_work_robot",        "social_work_people",    "pedestrian_progress",
                                         "pedestrian_desired_speed", "pedestrian_speed"};
-  for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
-    const Measurement m = measure(entry().descriptor(i)->id, trial);
+  for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
+    const Measurement m = measure(entry().descriptor(&entry(), i)->id, trial);
     for (const auto& [key, value] : m.values) {
       const std::string& name = std::get<0>(key);
       INFO(name);
@@ -244,8 +250,8 @@ TEST_CASE("a trial without robots has values of time and people only") {
   trial.end(3.0);
   const std::set<std::string> defined = {"mission_time", "pedestrian_progress", "pedestrian_speed",
                                          "pedestrian_desired_speed"};
-  for (std::uint32_t i = 0; i < entry().plugin_count(); ++i) {
-    const Measurement m = measure(entry().descriptor(i)->id, trial);
+  for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
+    const Measurement m = measure(entry().descriptor(&entry(), i)->id, trial);
     CHECK(m.events.empty());
     for (const auto& [key, value] : m.values) {
       INFO(std::get<0>(key));

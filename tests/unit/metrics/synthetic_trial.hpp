@@ -48,9 +48,9 @@ inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b
   return {kind, flags, a, b, 0.01, {0.0, 0.0}, std::nan("")};
 }
 
-// The referee's change of a robot's class, for calls().
-inline dmrp_call becomes(std::uint32_t robot, std::uint32_t status, std::uint32_t other = DMRP_NOBODY) {
-  return {DMRP_CALL_CLASS, robot, static_cast<std::int32_t>(status), other, 0};
+// The referee's change of a robot's class, for events().
+inline dmrp_robot_event becomes(std::uint32_t robot, std::uint32_t detail, std::uint32_t other = DMRP_NOBODY) {
+  return {DMRP_ROBOT_EVENT_CLASS, robot, 0, detail, other};
 }
 
 // An array element as in a later version of the contract: metrics must use the stride.
@@ -169,7 +169,7 @@ class SyntheticTrial {
   }
 
   // A path a robot, one waypoint a second from t = 0.
-  SyntheticTrial& plan(const std::vector<Points>& paths, std::int64_t planning_ns = 0) {
+  SyntheticTrial& plan(const std::vector<Points>& paths, std::int64_t planning_ns = 0, std::int64_t processor_ns = -1) {
     std::vector<std::vector<dmrp_waypoint>> timed;
     for (const Points& path : paths) {
       timed.emplace_back();
@@ -178,10 +178,11 @@ class SyntheticTrial {
         timed.back().push_back({point.x, point.y, std::nan(""), second * 1'000'000'000, 0, 0});
       }
     }
-    return timed_plan(timed, planning_ns);
+    return timed_plan(timed, planning_ns, processor_ns);
   }
 
-  SyntheticTrial& timed_plan(const std::vector<std::vector<dmrp_waypoint>>& paths, std::int64_t planning_ns = 0) {
+  SyntheticTrial& timed_plan(const std::vector<std::vector<dmrp_waypoint>>& paths, std::int64_t planning_ns = 0,
+                             std::int64_t processor_ns = -1) {
     plans_.emplace_back();
     StoredPlan& stored = plans_.back();
     for (const std::vector<dmrp_waypoint>& path : paths) stored.waypoints.push_back(longer(path));
@@ -196,6 +197,7 @@ class SyntheticTrial {
     stored.c.revision = plans_.size();
     stored.c.step_duration_ns = 1'000'000'000;
     stored.c.planning_ns = planning_ns;
+    stored.c.processor_ns = processor_ns;
     return *this;
   }
 
@@ -237,6 +239,14 @@ class SyntheticTrial {
   }
   SyntheticTrial& calls(const std::vector<dmrp_call>& calls) {
     samples_.back().calls = longer(calls);
+    return *this;
+  }
+
+  // Of the control tick of the sample, which was at the one before.
+  SyntheticTrial& events(const std::vector<dmrp_robot_event>& events) {
+    samples_.back().events = longer(events);
+    const std::int64_t tick_ns = samples_.back().c.t_ns - samples_.back().c.dt_ns;
+    for (auto& each : samples_.back().events) each.element.t_ns = tick_ns;
     return *this;
   }
 
@@ -307,6 +317,11 @@ class SyntheticTrial {
       c.calls = stored.calls.empty() ? nullptr : &stored.calls.front().element;
       c.call_count = static_cast<std::uint32_t>(stored.calls.size());
       c.call_stride = sizeof(Longer<dmrp_call>);
+      c.events = stored.events.empty() ? nullptr : &stored.events.front().element;
+      c.event_count = static_cast<std::uint32_t>(stored.events.size());
+      c.event_stride = sizeof(Longer<dmrp_robot_event>);
+      c.route_stride = sizeof(dmrp_route);
+      c.task_event_stride = sizeof(dmrp_task_event);
       use(c);
     }
   }
@@ -334,6 +349,7 @@ class SyntheticTrial {
     std::vector<Longer<dmrp_contact>> contacts;
     std::vector<Longer<dmrp_person>> people;
     std::vector<Longer<dmrp_call>> calls;
+    std::vector<Longer<dmrp_robot_event>> events;
   };
 
   // addresses stay when the trial is moved
@@ -342,8 +358,8 @@ class SyntheticTrial {
       std::make_unique<dmrp_limits>(dmrp_limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
-  std::unique_ptr<dmrp_grid> planning_grid_ =
-      std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
+  std::unique_ptr<dmrp_grid> planning_grid_ = std::make_unique<dmrp_grid>(
+      dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
   std::vector<float> clearance_;
@@ -380,8 +396,8 @@ struct Measurement {
 
 class CheckingSink {
  public:
-  CheckingSink(const dmrp_descriptor& descriptor, std::size_t robot_count, Measurement& into)
-      : descriptor_(descriptor), robot_count_(robot_count), into_(into) {
+  CheckingSink(const dmrp_metric_traits& traits, std::size_t robot_count, Measurement& into)
+      : traits_(traits), robot_count_(robot_count), into_(into) {
     c_.struct_size = sizeof(c_);
     c_.context = this;
     c_.value = [](dmrp_metric_sink* sink, const dmrp_metric_result* result) -> std::int32_t {
@@ -397,8 +413,8 @@ class CheckingSink {
   static CheckingSink& of(dmrp_metric_sink* sink) { return *static_cast<CheckingSink*>(sink->context); }
 
   const dmrp_metric_value_spec* specification(const std::string& name) const {
-    for (std::uint32_t i = 0; i < descriptor_.value_count; ++i) {
-      const auto* spec = DMRP_AT(dmrp_metric_value_spec, descriptor_.values, descriptor_.value_stride, i);
+    for (std::uint32_t i = 0; i < traits_.value_count; ++i) {
+      const auto* spec = DMRP_AT(dmrp_metric_value_spec, traits_.values, traits_.value_stride, i);
       if (name == spec->name) return spec;
     }
     return nullptr;
@@ -430,7 +446,7 @@ class CheckingSink {
     return true;
   }
 
-  const dmrp_descriptor& descriptor_;
+  const dmrp_metric_traits& traits_;
   std::size_t robot_count_;
   Measurement& into_;
   dmrp_metric_sink c_{};
@@ -444,7 +460,7 @@ inline Measurement measure_once(PluginUnderTest& plugin, const SyntheticTrial& t
   const dmrp_metric& metric = plugin.as<dmrp_metric>();
   const dmrp_metric_trial beginning = {sizeof(dmrp_metric_trial), 0, trial.first_plan()};
   const dmrp_trial_end end = trial.trial_end();
-  CheckingSink sink(plugin.descriptor(), trial.robot_count(), measurement);
+  CheckingSink sink(traits_of<dmrp_metric_traits>(plugin.descriptor()), trial.robot_count(), measurement);
   const GivenWalkingGrid walking_grid(trial.walking_grid());
   walking_grid.offer(plugin.host());
 
@@ -475,8 +491,9 @@ inline Measurement measure(const std::string& id, const SyntheticTrial& trial, P
   const Measurement measurement = measure_once(plugin, trial, world);
   if (!same_bits(measurement, measure_once(plugin, trial, world)))
     throw std::runtime_error(id + " remembers the last trial");
-  for (std::uint32_t i = 0; i < plugin.descriptor().value_count; ++i) {
-    const auto* spec = DMRP_AT(dmrp_metric_value_spec, plugin.descriptor().values, plugin.descriptor().value_stride, i);
+  const auto& traits = traits_of<dmrp_metric_traits>(plugin.descriptor());
+  for (std::uint32_t i = 0; i < traits.value_count; ++i) {
+    const auto* spec = DMRP_AT(dmrp_metric_value_spec, traits.values, traits.value_stride, i);
     if (measurement.values.count({spec->name, DMRP_SUBJECT_SYSTEM, 0}) == 0)
       throw std::runtime_error(std::string("no value for the system: ") + spec->name);
   }

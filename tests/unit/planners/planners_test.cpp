@@ -67,13 +67,13 @@ TEST_CASE("the library describes its planners") {
     const dmrp_descriptor* descriptor = plugins.find(id);
     REQUIRE(descriptor);
     CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
-    CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+    CHECK(dmrp::test::traits_of<dmrp_planner_traits>(*descriptor).connectivity == DMRP_CONNECTIVITY_4);
     CHECK(descriptor->flags == 0);
   }
   const dmrp_descriptor* descriptor = plugins.find(individual);
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(dmrp::test::traits_of<dmrp_planner_traits>(*descriptor).connectivity == DMRP_CONNECTIVITY_4);
   CHECK(descriptor->flags == DMRP_FLAG_UNCOORDINATED);
 }
 

@@ -19,19 +19,14 @@ function cells(data, difference) {
   return [
     number('before', numbers.fixed(difference.before, digits)),
     number('after', numbers.fixed(difference.after, digits)),
-    interval_rows.difference_cell(
-      'difference',
-      estimate_of(difference),
-      digits,
-      difference.pairs > 0 && numbers.counted(difference.seeds, 'seed')
-    ),
+    interval_rows.difference_cell('difference', estimate_of(difference), digits),
     number('p (Holm)', numbers.p_value(difference.p_holm)),
-    number('pairs', `${difference.pairs}`),
+    number('tasks', `${difference.tasks}`),
     element('td', {class: `judged ${judged}`}, judgement.WORDS[judged]),
   ];
 }
 
-const HEADS = ['before', 'after', 'difference', 'p (Holm)', 'pairs'];
+const HEADS = ['before', 'after', 'difference', 'p (Holm)', 'tasks'];
 
 function metrics_table(data, run) {
   const rows = run.differences.map((difference) => {
@@ -55,8 +50,8 @@ export function mount_metrics(body, data, run) {
     element(
       'p',
       {class: 'note'},
-      'Means over the trials that both runs have. Difference: after minus before, in pairs, with its 95 % interval; ' +
-        'trials with the same scenario, robots and seed count together. p (Holm): corrected for the number of metrics; ' +
+      'Means over the tasks that both runs have. Difference: after minus before, in pairs, with its 95 % interval; ' +
+        'all trials of a task count together. p (Holm): corrected for the number of metrics; ' +
         'better, worse and changed are below 0.05. A trial that ended in a fault failed, the time of a failed trial is ' +
         'the time limit, lengths are compared where both trials succeeded.'
     )

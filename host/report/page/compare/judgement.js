@@ -8,8 +8,8 @@ const SIGNIFICANT = 0.05;
 // 'better', 'worse', 'changed' (neither direction is better), 'equal', 'unclear' or 'undefined'.
 export function of(data, difference) {
   if (difference.pairs === 0) return 'undefined';
-  if (difference.p === null) return 'equal';
-  if (!(difference.p_holm < SIGNIFICANT)) return 'unclear';
+  if (difference.equal) return 'equal';
+  if (difference.p_holm === null || !(difference.p_holm < SIGNIFICANT)) return 'unclear';
   const {direction} = labels.metric(data, difference.metric);
   if (direction === 'none') return 'changed';
   return difference.difference > 0 === (direction === 'higher') ? 'better' : 'worse';

@@ -68,7 +68,8 @@ function table(data, rows, variants) {
   return titled_table(
     'title-completion',
     'Restricted mean time to arrive',
-    'The mean over all robots; a robot that has not arrived counts with the time limit. 95 % intervals over seeds.',
+    'The mean over all robots; a robot that has not arrived counts with the time limit. 95 % intervals over tasks; ' +
+      labels.population(data),
     made
   );
 }

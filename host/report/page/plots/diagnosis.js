@@ -37,7 +37,7 @@ export function correlation_of(data, stratum, x, y) {
 
 // Why a correlation has no value.
 function reason(found) {
-  return found.n < numbers.FEWEST ? numbers.too_few(found.n) : `equal values (${found.n})`;
+  return found.n < numbers.FEWEST_FOR_CORRELATION ? numbers.too_few(found.n) : `equal values (${found.n})`;
 }
 
 function correlation_words(found) {
@@ -81,10 +81,10 @@ function correlation_table(data, strata) {
   if (pairs.length === 0) return null;
   const title = ([x, y]) => `${labels.metric_title(data, x)}, ${labels.metric_title(data, y)}`;
   const note =
-    'Spearman\u2019s ρ over the trials in which both metrics are defined. Each controller\u2019s trials are ranked ' +
-    'on their own: differences between controllers count for nothing. 95 % intervals are over seeds; p is from ' +
-    'permutations within each controller. ' +
-    'Ties: the share of pairs of a controller\u2019s trials with equal values of one of the metrics.';
+    'Spearman\u2019s ρ over the tasks in which both metrics are defined. Each controller\u2019s tasks are ranked on their ' +
+    'own: differences between controllers count for nothing. 95 % intervals are over tasks; p is from permutations of ' +
+    'tasks, the same for all controllers. Fewer than six tasks have no correlation. ' +
+    `Ties: the share of pairs of a controller\u2019s tasks with equal values of one of the metrics. ${labels.population(data)}`;
   return titled_table(
     'title-correlations',
     'Rank correlations',
@@ -122,7 +122,7 @@ function first_choice(data, measured) {
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.trials.id.length < numbers.FEWEST)
+  if (data.trials.id.length < numbers.FEWEST_FOR_CORRELATION)
     return `with ${numbers.counted(data.trials.id.length, 'trial')} no correlation can be computed`;
   return labels.measured_metrics(data).length < 2 ? 'fewer than two metrics have values' : null;
 }

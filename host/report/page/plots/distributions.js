@@ -20,7 +20,7 @@ export function model(data, variant, metric) {
   const values = data.values[metric];
   const of = new Map(variant.combinations.map((combination) => [combination, []]));
   data.trials.combination.forEach((combination, i) => {
-    if (of.has(combination) && data.trials.outcome[i] !== 'skipped') of.get(combination).push(i);
+    if (of.has(combination) && !['skipped', 'unsupported'].includes(data.trials.outcome[i])) of.get(combination).push(i);
   });
   const rows = variant.combinations.map((combination) => {
     const trials = of.get(combination);

@@ -39,6 +39,7 @@ const OUTCOMES = {
   failed: 'not all robots arrived',
   fault: 'ended in a fault',
   skipped: 'skipped',
+  unsupported: 'not for a plugin',
 };
 
 function tip_of(data, row, metrics) {
@@ -145,7 +146,7 @@ export function mark_legend(data) {
     const series = labels.series(data, 'local_controller', value);
     return {label: value, colour: series.colour, path: plots.symbol(series.symbol)};
   });
-  if (data.trials.outcome.some((outcome) => outcome !== 'succeeded' && outcome !== 'skipped'))
+  if (data.trials.outcome.some((outcome) => !['succeeded', 'skipped', 'unsupported'].includes(outcome)))
     entries.push({label: 'not all robots arrived', colour: 'var(--ink)', path: plots.cross(), failed: true});
   return entries.length > 1 ? plots.legend(entries) : null;
 }

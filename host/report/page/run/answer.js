@@ -8,7 +8,7 @@ import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
 
 const DECIMALS = 2;
-const STANDINGS = {first: 'first', not_told_apart: 'not told apart', worse: 'worse'};
+const STANDINGS = {first: 'first, may be the best', may_be_best: 'may be the best', worse: 'not the best'};
 
 // "mall · 4 robots": what an answer is about, if it is not about everything.
 export function scope_words(data, answer) {
@@ -26,9 +26,8 @@ export function scope_words(data, answer) {
 
 // The difference to the first in a criterion: "−0.25 [−0.35, −0.15]"; "=" where no pair differs.
 export function difference_words(against) {
-  if (against.observations === 0) return numbers.UNDEFINED;
-  if (against.p_holm === null && against.mean === 0) return '=';
-  if (against.observations < numbers.FEWEST) return numbers.too_few(against.observations);
+  if (against.tasks === 0) return numbers.UNDEFINED;
+  if (against.equal) return '=';
   const interval = numbers.interval(against.low, against.high, DECIMALS, numbers.signed);
   return [numbers.signed(against.mean, DECIMALS), interval].filter(Boolean).join(' ');
 }
@@ -39,10 +38,11 @@ function criterion_cell(one, c) {
     'td',
     {class: one.decided === c ? 'number decided' : 'number'},
     element('span', {class: 'mean'}, numbers.fixed(one.means[c], DECIMALS)),
+    element('span', {class: 'interval'}, numbers.interval(...one.intervals[c], DECIMALS)),
     against &&
       element(
         'span',
-        {class: 'against', 'data-about': `p (Holm) ${numbers.p_value(against.p_holm)}`},
+        {class: 'against', 'data-about': `difference to the first, over ${numbers.counted(against.tasks, 'task')}`},
         one.decided === c && hidden('decides: '),
         difference_words(against)
       )
@@ -55,7 +55,7 @@ function row(one) {
     {class: one.standing.replace(/_/g, '-')},
     element('th', {scope: 'row'}, `${one.global_planner} + ${one.local_controller}`),
     one.means.map((_, c) => criterion_cell(one, c)),
-    element('td', {}, one.words && one.standing !== 'worse' ? `${STANDINGS[one.standing]}, ${one.words}` : STANDINGS[one.standing])
+    element('td', {}, STANDINGS[one.standing], one.pareto && element('span', {class: 'given'}, ' · not beaten in all'))
   );
 }
 
@@ -67,16 +67,17 @@ function table(answer) {
     head_row(
       element('th', {scope: 'col'}, 'planner + controller'),
       heads,
-      element('th', {scope: 'col'}, 'against the first')
+      element('th', {scope: 'col'}, 'of these')
     ),
     element('tbody', {}, answer.ranking.map(row))
   );
 }
 
 const KEY =
-  'Ordered by the shares, then by time: a robot\u2019s time of arrival over the length of its shortest way, of robots ' +
-  'that arrived. Below each mean: the paired difference to the first, with its 95 % interval. \u201cWorse\u201d and the ' +
-  'framed value: that difference is significant (p < 0.05 by Holm over all comparisons with the first).';
+  'Those that may be the best come first; with 95 % confidence the best is among them. The criteria count from left to ' +
+  'right: in the next, one is compared with those to which it was shown not to be inferior by 5 points or half a second. ' +
+  'Time is that of arrival over the length of the robot\u2019s shortest way, of robots that arrived. Below each mean: its ' +
+  '95 % interval over tasks, and the paired difference to the first. Framed: what tells that it is not the best.';
 
 function answer_element(answer) {
   return [

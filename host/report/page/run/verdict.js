@@ -19,6 +19,7 @@ export function tally(data) {
     missing: Math.max(0, run.trials_planned - ran.length),
     fault_trials: new Set(data.faults.map((fault) => fault.trial)).size,
     faults: data.faults.length,
+    unsupported: ran.filter((i) => trials.outcome[i] === 'unsupported').length,
     failed_trials: ran.filter((i) => trials.outcome[i] === 'failed').length,
     not_repeatable: ran.filter((i) => !trials.repeatable[i]).length,
     robots: sum(known(arrived).map(robots)),
@@ -70,6 +71,13 @@ export function lines(data) {
         t.missing === 1 ? 'is' : 'are'
       } missing: the run is incomplete.`
     );
+  const grown = ((data.run.manifest || {}).experiment || {}).grown_from || [];
+  if (grown.length > 0)
+    add(
+      'warning',
+      `Continued with more trials than it was begun with (${[...grown, data.run.repetitions].join(', then ')} of each ` +
+        'combination): intervals and p values hold for a number that was set before results were seen.'
+    );
   if (t.not_repeatable > 0)
     add(
       'warning',
@@ -88,6 +96,9 @@ export function lines(data) {
       )}${causes_words(data)}.`,
       'failures'
     );
+  if (t.unsupported > 0)
+    add('note', `${numbers.counted(t.unsupported, 'trial')} left out: a plugin says that they are not for it.`);
+  if (data.standstills_line) add('note', `${data.standstills_line}.`);
   if (found.length === 0) add('good', all_well(t));
   else if (t.ran > 0 && found.every((line) => line.kind === 'note'))
     add('good', `${numbers.counted(t.ran, 'trial')} without a fault, every one repeatable.`);

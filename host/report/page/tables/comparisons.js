@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// comparisons.js: paired differences between combinations with the same seeds, as a forest plot.
+// comparisons.js: paired differences between combinations on the same tasks, as a forest plot.
 import * as controls from '../controls.js';
 import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
@@ -57,13 +57,13 @@ function row_element(data, comparison, x, decimals) {
       given && element('span', {class: 'given'}, ` with ${given}`)
     ),
     interval_rows.cell(estimate, x, sure),
-    interval_rows.difference_cell('difference', estimate, decimals, comparison.pairs),
+    interval_rows.difference_cell('difference', estimate, decimals),
     number('p', numbers.p_value(comparison.p)),
     number('p (Holm)', numbers.p_value(comparison.p_holm)),
     number('effect', numbers.signed(comparison.effect, 2)),
     number(
-      'pairs',
-      `${comparison.pairs}`,
+      'tasks',
+      `${comparison.tasks}`,
       comparison.ties > 0 && element('span', {class: 'given'}, ` (${numbers.counted(comparison.ties, 'tie')})`)
     )
   );
@@ -82,7 +82,7 @@ function head(metric, title, x) {
     element('th', {scope: 'col'}, 'first \u2212 second'),
     interval_rows.axis(x, ...side_words(metric.direction)),
     number_head(title, numbers.unit(metric.unit)),
-    ['p', 'p (Holm)', 'effect', 'pairs'].map((name) => number_head(name))
+    ['p', 'p (Holm)', 'effect', 'tasks'].map((name) => number_head(name))
   );
 }
 
@@ -115,9 +115,10 @@ function note_words(data, rows, chosen) {
       test ? `${test.name}, two-sided` : rows[0].test
     }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, corrected for all ` +
     'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
-    `\u22121 to 1. Pairs: seeds ${successes ? 'with which both trials succeeded' : 'with values in both trials'}.` +
+    `\u22121 to 1. Tasks: those ${successes ? 'in which both trials succeeded' : 'with values in both trials'}, ` +
+    'each the mean over its crowds.' +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
-    ` Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
+    ` Below ${numbers.FEWEST} tasks there is no p. ${labels.population(data)}`
   );
 }
 
@@ -133,9 +134,9 @@ export function default_metric(data) {
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.comparisons.some((one) => one.pairs >= numbers.FEWEST)) return null;
-  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} seeds`;
-  return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a seed';
+  if (data.comparisons.some((one) => one.tasks >= numbers.FEWEST)) return null;
+  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} tasks`;
+  return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a trial';
 }
 
 export function mount(body, data) {

@@ -62,11 +62,9 @@ export function cell(row, x, sure) {
   return holder;
 }
 
-// The numbers of a row, `estimate` and its interval; without them, that `count` is too few.
-export function difference_cell(label, {estimate, low, high}, decimals, count) {
-  const few = count && !numbers.is_number(estimate);
-  const value = few ? numbers.too_few(count) : numbers.signed(estimate, decimals);
-  return number_cell(label, value, numbers.interval(low, high, decimals, numbers.signed));
+// The numbers of a row, `estimate` and its interval.
+export function difference_cell(label, {estimate, low, high}, decimals) {
+  return number_cell(label, numbers.signed(estimate, decimals), numbers.interval(low, high, decimals, numbers.signed));
 }
 
 // The axis above the column: ticks, and the meaning of both sides of zero.

@@ -96,7 +96,7 @@ export function mount(body, data) {
   const title = element('h3', {id: 'title-metrics'});
   state.changed = () => {
     const trials = data.trials.combination.filter(
-      (of, i) => of === state.combination && data.trials.outcome[i] !== 'skipped'
+      (of, i) => of === state.combination && !['skipped', 'unsupported'].includes(data.trials.outcome[i])
     ).length;
     const shown = found(data, state.words);
     fill(

@@ -3,7 +3,6 @@
 import * as controls from '../controls.js';
 import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
-import * as numbers from '../numbers.js';
 import {scroll_box} from '../scroll_box.js';
 import {with_svg_button} from '../svg_files.js';
 import * as interval_rows from './interval_rows.js';
@@ -17,8 +16,9 @@ function table_of(data, rows, variants) {
       {},
       element('th', {scope: 'row'}, labels.combination(data, one.combination)),
       interval_rows.cell(one, x, one.low > 0 || one.high < 0),
-      interval_rows.difference_cell('delay', one, 2, one.pairs),
-      element('td', {class: 'number', 'data-label': 'pairs'}, one.pairs)
+      interval_rows.difference_cell('delay', one, 2),
+      element('td', {class: 'number', 'data-label': 'pairs'}, one.pairs),
+      element('td', {class: 'number', 'data-label': 'tasks'}, one.tasks)
     );
   const table = element(
     'table',
@@ -27,7 +27,8 @@ function table_of(data, rows, variants) {
       element('th', {scope: 'col'}, 'combination'),
       interval_rows.axis(x, '← sooner', 'later →'),
       number_head('delay', 's'),
-      number_head('pairs')
+      number_head('pairs'),
+      number_head('tasks')
     ),
     bodies_of(data, variants, 4, (variant) =>
       estimates.filter((one) => variant.combinations.includes(one.combination)).map(row_of)
@@ -41,9 +42,7 @@ const measured_rows = (data) => data.pedestrian_delay.filter((row) => row.pairs 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
   const rows = measured_rows(data);
-  if (rows.length === 0) return 'the experiment has no variant of the scenario with robots = 0 as a reference';
-  const enough = rows.some((row) => row.pairs >= numbers.FEWEST);
-  return enough ? null : `no combination has ${numbers.FEWEST} pairs with the variant without robots`;
+  return rows.length > 0 ? null : 'the experiment has no variant of the scenario with robots = 0 as a reference';
 }
 
 export function mount(body, data) {
@@ -68,8 +67,7 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      'Bars: 95 % intervals over seeds. Filled: the interval excludes zero. ' +
-        `Too few: below ${numbers.FEWEST} pairs nothing is estimated.`
+      `Bars: 95 % intervals over tasks, from ten on. Filled: the interval excludes zero. ${labels.population(data)}`
     )
   );
 }

@@ -181,13 +181,13 @@ function table_element(data, {layout, variants}) {
     ...bodies.map((one) => one.body)
   );
   const sort = sorter(table, model, bodies);
-  return titled_table(`title-${layout.id}`, layout.title, layout.note, table);
+  return titled_table(`title-${layout.id}`, layout.title, [layout.note, labels.population(data)].filter(Boolean).join(' '), table);
 }
 
 const KEY =
-  'Dot and bold: the best mean of the column within a scenario, where paired differences tell it apart from all others ' +
-  '(Holm, 5 %); for values of driving only where all rows have the same success. Brackets: 95 % interval ' +
-  'over seeds, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
+  'Dot and bold: with 95 % confidence better than all others of the column within a scenario; for values of driving only ' +
+  'where all rows have the same success. Means are over tasks. Brackets: 95 % interval ' +
+  'over tasks, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
   'defined. Paired differences tests the differences between rows. Click a header to sort.';
 const PAPER_KEY =
   'Third line: the mean by the paper\u2019s rule, with the number of trials in parentheses: it excludes failed ' +

@@ -14,7 +14,7 @@ function source(data, layout) {
   const trials = new Map(rows.map((row) => [key(row), 0]));
   data.trials.combination.forEach((combination, i) => {
     const of = key(data.combinations[combination]);
-    if (data.trials.outcome[i] !== 'skipped') trials.set(of, trials.get(of) + 1);
+    if (!['skipped', 'unsupported'].includes(data.trials.outcome[i])) trials.set(of, trials.get(of) + 1);
   });
   return {
     rows,

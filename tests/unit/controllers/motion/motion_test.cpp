@@ -38,7 +38,7 @@ struct Now {
     goal.tolerance_m = 0.2;
     goal.tolerance_rad = 0.2;
     c.goal = &goal;
-    c.released_waypoint = 1000;
+    c.goal_stride = sizeof(goal);
     c.limits = &limits;
     c.footprint = &footprint;
     c.agent_stride = sizeof(dmrp_agent);
@@ -54,10 +54,10 @@ struct Point {
   std::uint32_t goal_index = 0;
 };
 
-void send(PathTracker& tracker, const std::vector<Point>& points) {
+void send(PathTracker& tracker, const std::vector<Point>& points, std::uint32_t flags = 0) {
   std::vector<dmrp_waypoint> waypoints;
   for (const Point& p : points) waypoints.push_back({p.x, p.y, nan_heading, 0, p.goal_index, 0});
-  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), 0,
+  const dmrp_path path = {sizeof(path), static_cast<std::uint32_t>(waypoints.size()), sizeof(dmrp_waypoint), flags,
                           waypoints.data()};
   tracker.set_path(dmrp::Path(path));
 }
@@ -119,23 +119,24 @@ TEST_CASE("The tracker moves forward, skips no excursion, and ends at the stop p
     CHECK(tracker.progress_m() == Approx(3.1));
   }
   SECTION("a tour stops at each goal") {
-    send(tracker, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 1}, {2, 2, 1}});
+    send(tracker, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
     now.goal.pose = {2.0, 0.0, 0.5};
     now.c.goal_index = 0;
     tracker.update(now.at(0.0, 0.0));
     CHECK(tracker.end_m() == Approx(2.0));
     CHECK(tracker.stop().is_goal);
     CHECK(tracker.stop().heading == 0.5);
+    send(tracker, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 1}, {2, 2, 1}});
     now.goal.pose = {2.0, 2.0, nan_heading};
     now.c.goal_index = 1;
+    now.c.progress_m = 2.0;
     tracker.update(now.at(2.0, 0.0));
     CHECK(tracker.end_m() == Approx(4.0));
     CHECK(tracker.stop().position.y == 2.0);
   }
-  SECTION("the last released waypoint is a stop, but no goal") {
-    send(tracker, {{0, 0}, {1, 0}, {2, 0}});
-    now.goal.pose = {2.0, 0.0, 0.5};
-    now.c.released_waypoint = 1;
+  SECTION("the end of a partial path is a stop, but no goal") {
+    send(tracker, {{0, 0}, {1, 0}}, DMRP_PATH_PARTIAL);
+    now.goal.pose = GENERATE(dmrp_pose{2.0, 0.0, 0.5}, dmrp_pose{1.0, 0.0, 0.5});  // where it will come back to, too
     tracker.update(now.at(0.0, 0.0));
     CHECK(tracker.end_m() == Approx(1.0));
     CHECK_FALSE(tracker.stop().is_goal);

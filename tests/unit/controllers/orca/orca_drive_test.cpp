@@ -16,40 +16,15 @@ constexpr const char* orca = "dmrp.controller.orca";
 
 TEST_CASE("Six of ORCA's robots change places on a circle") {
   constexpr int count = 6;
-  std::vector<std::unique_ptr<Trip>> trips(count);
-  const auto place = [](int i) {
-    return 4.0 * dmrp::toolkit::from_angle(2.0 * dmrp::toolkit::pi * i / count + 0.05 * i);
-  };
-  std::vector<const Trip*> all(count, nullptr);
+  std::vector<Course> courses(count);
   for (int i = 0; i < count; ++i) {
-    Course course;
-    const dmrp_vec2 from = place(i);
+    const dmrp_vec2 from = 4.0 * dmrp::toolkit::from_angle(2.0 * dmrp::toolkit::pi * i / count + 0.05 * i);
+    Course& course = courses[static_cast<std::size_t>(i)];
     course.path = metre_path({from, -1.0 * from});
     course.start = {from.x, from.y, std::atan2(-from.y, -from.x)};
     course.time_limit_s = 60.0;
-    for (int k = 0; k < count; ++k) {
-      if (k == i) continue;
-      course.walkers.push_back({0.25,
-                                [&all, k](double, dmrp_vec2) {
-                                  const Trip* other = all[static_cast<std::size_t>(k)];
-                                  return other ? dmrp::toolkit::position(other->pose()) : dmrp_vec2{99.0, 99.0};
-                                },
-                                DMRP_AGENT_ROBOT,
-                                [&all, k] {
-                                  const Trip* other = all[static_cast<std::size_t>(k)];
-                                  return other ? other->velocity() : dmrp_vec2{0.0, 0.0};
-                                }});
-    }
-    trips[static_cast<std::size_t>(i)] = std::make_unique<Trip>(orca, course);
   }
-  std::vector<Trip*> driven;
-  for (int i = 0; i < count; ++i) {
-    driven.push_back(trips[static_cast<std::size_t>(i)].get());
-    all[static_cast<std::size_t>(i)] = driven.back();
-  }
-  drive_together(driven);
-  for (const Trip* trip : driven) {
-    const Drive& drive = trip->result();
+  for (const Drive& drive : drive_together(orca, courses)) {
     CHECK(drive.arrived);
     CHECK(drive.breaches == std::vector<std::string>{});
     CHECK(drive.walker_clearance_m > 0.0);

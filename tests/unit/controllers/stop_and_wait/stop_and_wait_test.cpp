@@ -44,6 +44,45 @@ TEST_CASE("Stop and wait stops before a person on its path and never passes") {
   CHECK(drive.end.x > 2.8);
 }
 
+TEST_CASE("Stop and wait rotates around a cycle of cells, however the robots stand at first") {
+  // four robots on four cells, and eight around a ninth
+  const std::vector<dmrp_vec2> cells =
+      GENERATE(std::vector<dmrp_vec2>{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}},
+               std::vector<dmrp_vec2>{
+                   {0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 1.0}});
+  const double radius_m = GENERATE(0.25, 0.3);
+  const double turned_rad = GENERATE(0.0, 1.9);  // from robot to robot
+  CAPTURE(cells.size(), radius_m, turned_rad);
+  std::vector<Course> courses;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Course course;
+    course.body.radius_m = course.body.inscribed_radius_m = radius_m;
+    course.path = {cells[i], cells[(i + 1) % cells.size()]};
+    course.start = {cells[i].x, cells[i].y, turned_rad * static_cast<double>(i)};
+    course.time_limit_s = 60.0;
+    courses.push_back(course);
+  }
+  for (const Drive& drive : drive_together(stop_and_wait, courses)) {
+    CHECK(drive.arrived);
+    CHECK(drive.breaches == std::vector<std::string>{});
+    CHECK(drive.walker_clearance_m > 0.0);
+  }
+}
+
+TEST_CASE("Stop and wait keeps stop_distance before a person beside a robot") {
+  Course course = straight();
+  Walker robot = standing({4.0, 0.3});
+  robot.kind = DMRP_AGENT_ROBOT;
+  course.walkers = {robot};
+  course.time_limit_s = 30.0;
+  const Drive alone = run(stop_and_wait, course);
+  CHECK(alone.walker_clearance_m > 0.02);
+  CHECK(alone.walker_clearance_m < 0.25);
+  course.walkers.push_back(standing({4.0, -0.3}));
+  const Drive with_person = run(stop_and_wait, course);
+  CHECK(with_person.walker_clearance_m > 0.25);
+}
+
 TEST_CASE("Stop and wait keeps stop_distance before what is on its path") {
   Course course = straight();
   course.boxes = {{{5.0, -1.0}, {5.2, 1.0}}};

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/execution/progress.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
 using namespace dmrp;
@@ -98,6 +100,29 @@ TEST_CASE("a loop back to the same cell is driven, not skipped") {
   progress.update({1.0, 0.4}, 0);
   progress.update({1.5, 0.0}, 0);
   CHECK(progress.progress_m() == Approx(3.5));
+}
+
+TEST_CASE("a plan that pushes a robot out of its cell and back leads it through every cell between") {
+  // as PIBT plans for robot 57 of 64 in the warehouse: the order has released the last waypoint, which is the second
+  const std::vector<dmrp_waypoint> path = {waypoint(18.5, 21.5), waypoint(17.5, 21.5), waypoint(17.5, 22.5),
+                                           waypoint(16.5, 22.5), waypoint(16.5, 21.5), waypoint(17.5, 21.5)};
+  PathProgress progress;
+  progress.set_path(path, {18.5, 21.5});
+  std::vector<std::uint32_t> ends;  // of what the robot may drive
+  dmrp_vec2 place = {18.5, 21.5};
+  for (int step = 0; step < 2000 && progress.waypoint() + 1 < path.size(); ++step) {
+    const std::uint32_t end = progress.before_return();
+    if (ends.empty() || ends.back() != end) ends.push_back(end);
+    const dmrp_waypoint& next = path[progress.waypoint() + 1];
+    const dmrp_vec2 way = dmrp_vec2{next.x, next.y} - place;
+    place = place + std::min(1.0, 0.03 / std::max(1e-9, toolkit::norm(way))) * way;
+    progress.update(place, 0);
+    REQUIRE(progress.waypoint() <= end);
+    // more than its tolerance from the end of what it may drive, unless it goes on there
+    if (progress.waypoint() < 4)
+      CHECK(toolkit::distance(place, toolkit::position(path[progress.before_return()])) > 0.2);
+  }
+  CHECK(ends == std::vector<std::uint32_t>{5, 4, 5});
 }
 
 TEST_CASE("a path that begins elsewhere has begun when its first waypoint is passed") {

@@ -2,6 +2,7 @@
 // The worked examples, the invariants and the planted misbehaviours of the rules in referee.hpp.
 #include "core/execution/referee.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
@@ -75,6 +76,7 @@ struct Match {
   std::vector<PathProgress> progress;
   std::vector<CoursePlace> places;
   std::vector<std::set<std::uint32_t>> classes;  // by robot: all that it was in
+  std::function<dmrp_vec2(double t_s)> walk;     // the velocity of all people; none: they stand
 
   Match(Scenario of, double time_limit_s, Referee::Settings settings = {}, std::uint64_t seed = 1)
       : scenario(std::move(of)),
@@ -118,7 +120,7 @@ struct Match {
         world.set_command(i, {own.x, own.y, motion.omega});
         referee.command_given(i);
       }
-      world.step(std::vector<dmrp_vec2>(world.people().size()));
+      world.step(std::vector<dmrp_vec2>(world.people().size(), walk ? walk(t_s()) : dmrp_vec2{}));
       referee.judge_arrivals(places);
       for (std::uint32_t i = 0; i < places.size(); ++i) {
         const RobotState& robot = world.robots()[i];
@@ -198,8 +200,8 @@ TEST_CASE("a robot that circles and then arrives has succeeded, unless the exper
   });
   CHECK(ending == DMRP_ENDING_ARRIVED);
   bool circled = false;
-  for (const dmrp_call& change : match.referee.take_changes())
-    circled = circled || (change.status & DMRP_CLASS_CIRCLING) != 0;
+  for (const dmrp_robot_event& change : match.referee.take_changes())
+    circled = circled || (change.detail & DMRP_CLASS_CIRCLING) != 0;
   CHECK(circled);
   CHECK(match.end_of(0, ending).failure == (excludes ? DMRP_FAILURE_OSCILLATION : DMRP_FAILURE_NONE));
 }
@@ -280,13 +282,40 @@ TEST_CASE("a standstill ends the trial after half a minute, unless somebody move
   if (!somebody) CHECK(match.t_s() == Approx(30.0).margin(0.2));
 }
 
-TEST_CASE("a share of the standstills runs to the limit") {
+TEST_CASE("a robot that people who mill about block runs to the limit, whether it creeps or stands") {
+  const double creep = GENERATE(0.005, 0.0);  // 0.1 m in 20 s
+  Scenario scenario = hall({robot({5.5, 5.5, 0.0}, dmrp_vec2{40.5, 5.5})});
+  scenario.regions = {{"ahead", {8.0, 4.5}, {10.0, 6.5}}, {"away", {50.0, 20.0}, {52.0, 22.0}}};
+  scenario.flows = {{"crowd", {0, 1}, 1, FlowStart::from}};
+  Match match(scenario, 90.0);
+  match.plan(0, {{5.5, 5.5}, {40.5, 5.5}});
+  // the person steps on the robot's course and goes to and fro there
+  const auto person = [&] { return toolkit::position(match.world.person_agents()[0].pose); };
+  match.walk = [&](double t_s) {
+    const double off_m = person().y - 5.5;
+    return dmrp_vec2{0.0, std::abs(off_m) > 0.3 ? std::copysign(0.5, -off_m) : std::fmod(t_s, 2.0) < 1.0 ? 0.5 : -0.5};
+  };
+  const std::uint32_t ending = match.run(100.0, [&](double, std::uint32_t, const World& world) {
+    const double room_m = person().x - world.robots()[0].pose.x;
+    return Motion{{room_m > 1.4 ? 0.5 : creep, 0.0}};
+  });
+  CHECK(ending == DMRP_ENDING_TIME_LIMIT);
+  CHECK(match.classes[0] == std::set<std::uint32_t>{DMRP_CLASS_MOVING, DMRP_CLASS_BLOCKED_PERSON});
+  CHECK(match.end_of(0, ending).failure == DMRP_FAILURE_BLOCKED_PERSON);
+}
+
+TEST_CASE("a share of the standstills runs to the limit, and the trace tells of it") {
   int continued = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Match match(hall({robot({5.5, 5.5, 0.0}, dmrp_vec2{40.5, 5.5})}), 31.0, {}, seed);
     match.plan(0, {{5.5, 5.5}, {40.5, 5.5}});
     const auto stand = [](double, std::uint32_t, const World&) { return Motion{}; };
-    if (match.run(40.0, stand) == DMRP_ENDING_TIME_LIMIT) ++continued;
+    const bool runs_on = match.run(40.0, stand) == DMRP_ENDING_TIME_LIMIT;
+    if (runs_on) ++continued;
+    const std::vector<dmrp_robot_event> told = match.referee.take_changes();
+    CHECK(std::count_if(told.begin(), told.end(), [](const dmrp_robot_event& event) {
+            return event.kind == DMRP_ROBOT_EVENT_RUNS_ON && event.robot == 0;
+          }) == (runs_on ? 1 : 0));
   }
   CHECK(continued > 5);  // of 20 expected
   CHECK(continued < 40);

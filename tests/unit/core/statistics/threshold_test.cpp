@@ -18,6 +18,10 @@ LevelOutcomes outcomes(double level, int successes, int count) {
   return out;
 }
 
+Resampling repetitions(std::size_t count) {
+  return {std::vector<std::uint32_t>(count), Scope::these_worlds, 400};
+}
+
 }  // namespace
 
 TEST_CASE("isotonic fit: violators are pooled by weight") {
@@ -73,10 +77,27 @@ TEST_CASE("the threshold lies where the fit reaches one half") {
 TEST_CASE("a threshold beyond the levels is said to be so") {
   CHECK(half_threshold(std::vector{outcomes(0.65, 12, 20), outcomes(0.7, 20, 20)}).beyond_hardest);
   CHECK(half_threshold(std::vector{outcomes(0.65, 12, 20), outcomes(0.7, 20, 20)}).level == 0.65);
-  const ThresholdEstimate never = estimate_threshold(std::vector{outcomes(0.65, 0, 20), outcomes(0.7, 0, 20)});
+  const ThresholdEstimate never =
+      estimate_threshold(std::vector{outcomes(0.65, 0, 20), outcomes(0.7, 0, 20)}, repetitions(20));
   CHECK(never.threshold.beyond_easiest);
   CHECK(never.low.beyond_easiest);
   CHECK(never.high.level == 0.7);
+}
+
+TEST_CASE("a steep threshold is a bracket") {
+  const auto bracket = [](const std::vector<LevelOutcomes>& levels) {
+    return estimate_threshold(levels, repetitions(20)).bracket;
+  };
+  const ThresholdBracket steep = bracket({outcomes(0.6, 0, 20), outcomes(0.7, 0, 20), outcomes(0.8, 20, 20)});
+  CHECK(steep.last_failed == 0.7);
+  CHECK(steep.first_passed == 0.8);
+  CHECK(steep.is_steep);
+  CHECK_FALSE(bracket({outcomes(0.6, 0, 20), outcomes(0.7, 1, 20), outcomes(0.8, 20, 20)}).is_steep);
+  const ThresholdBracket passed = bracket({outcomes(0.6, 20, 20), outcomes(0.7, 20, 20)});
+  CHECK_FALSE(passed.last_failed);
+  CHECK(passed.first_passed == 0.6);
+  CHECK_FALSE(passed.is_steep);
+  CHECK_FALSE(bracket({outcomes(0.6, 0, 20)}).first_passed);
 }
 
 TEST_CASE("a level without trials says nothing") {
@@ -96,7 +117,7 @@ TEST_CASE("the interval holds the threshold of the curve that trials are drawn f
       levels.push_back({static_cast<double>(level), {}});
       for (int i = 0; i < 40; ++i) levels.back().by_repetition.push_back(stream.chance(level / 10.0) ? 1.0 : 0.0);
     }
-    const ThresholdEstimate estimate = estimate_threshold(levels, {400, 1});
+    const ThresholdEstimate estimate = estimate_threshold(levels, repetitions(40));
     covered += estimate.low.level <= 5.0 && estimate.high.level >= 5.0;
   }
   CHECK(covered >= rounds * 88 / 100);

@@ -52,10 +52,13 @@ struct ExampleWorld {
   std::array<std::uint8_t, 6> free{1, 0, 1, 1, 1, 0};
   std::array<std::uint8_t, 6> edges{0x01, 0, 0xff, 7, 9, 0};
   std::array<float, 6> clearance{0.5F, 0.0F, 1.25F, 0.1F, 3.0F, std::numeric_limits<float>::infinity()};
-  dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data()};
+  std::array<std::uint16_t, 48> edge_cost{};
+  dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data(),
+                     edge_cost.data()};
   dmrp_world world{};
 
   ExampleWorld() {
+    for (std::size_t i = 0; i < edge_cost.size(); ++i) edge_cost[i] = static_cast<std::uint16_t>(1000 * i);
     world.struct_size = sizeof(dmrp_world);
     world.person_count = 2;
     world.person_radius_m = 0.35;
@@ -90,7 +93,7 @@ struct ExamplePlan {
       : first{{0.5, 0.5, std::nan(""), 0, 0, 0}, {1.5, 0.5, 0.25, 1'800'000'000, 0, 0}},
         second{{5.5, 5.5, 0.0, 0, 0, 0}, {5.5, 5.5, 0.0, 1'800'000'000, 0, 0}, {4.5, 5.5, 0.0, 3'600'000'000, 1, 0}} {
     paths[0] = {sizeof(dmrp_path), 2, sizeof(dmrp_waypoint), 0, first.data()};
-    paths[1] = {sizeof(dmrp_path), 3, sizeof(dmrp_waypoint), 0, second.data()};
+    paths[1] = {sizeof(dmrp_path), 3, sizeof(dmrp_waypoint), DMRP_PATH_PARTIAL, second.data()};
     plan = {sizeof(dmrp_plan),
             2,
             paths.data(),
@@ -102,7 +105,8 @@ struct ExamplePlan {
             revision,
             0,
             1'800'000'000,
-            432'100};
+            432'100,
+            321'000};
   }
   ExamplePlan(const ExamplePlan&) = delete;
   ExamplePlan& operator=(const ExamplePlan&) = delete;
@@ -113,13 +117,28 @@ struct ExampleSample {
   std::array<dmrp_robot_sample, 2> robots{};
   std::array<dmrp_person, 2> people{};
   std::array<dmrp_contact, 2> contacts{};
-  std::array<dmrp_call, 4> calls{};
+  std::array<dmrp_call, 3> calls{};
+  std::array<dmrp_robot_event, 3> events{};
+  std::array<dmrp_task_event, 2> task_events{};
+  std::vector<dmrp_waypoint> course;
+  std::array<dmrp_path, 2> paths{};
+  std::array<dmrp_route, 2> routes{};
   dmrp_sample sample{};
 
   ExampleSample(std::int64_t k, const dmrp_plan* plan) {
     const double x = static_cast<double>(k) / 3.0;
-    robots[0] = {{x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x, 0.0};
-    robots[1] = {{-x, 1e-310, 3.0}, {0, 0, 0}, {0, 0, 0}, DMRP_ROBOT_FINISHED, 1, 2.0, -0.3};
+    robots[0] = {
+        {x, 0.1, -0.0}, {0.5, 0.0, x}, {0.6, 0.0, -x}, DMRP_ROBOT_ACTIVE, 0, x, 0.0, {2.0, 0.0, -x}, DMRP_WARNING, 0};
+    robots[1] = {{-x, 1e-310, 3.0},
+                 {0, 0, 0},
+                 {0, 0, 0},
+                 DMRP_ROBOT_FINISHED,
+                 1,
+                 2.0,
+                 -0.3,
+                 {std::nan(""), std::nan(""), std::nan("")},
+                 DMRP_NO_SOLUTION,
+                 0};
     people[0] = {41, 3, 7, {1.0, x}, {0.1, 1.1}, 0.3, 1.25, {9.0, x}, {8.0, -1.0}, {10.0, 1.0}, DMRP_REACTION_CURIOUS,
                  0};
     people[1] = {
@@ -129,8 +148,14 @@ struct ExampleSample {
     contacts[1] = {DMRP_CONTACT_PERSON, DMRP_CONTACT_FAULT_B, 1, 1, 0.02, {2.0, x}, std::nan("")};
     calls[0] = {DMRP_CALL_CONTROL, 0, DMRP_OK, 0, 81'000 + k};
     calls[1] = {DMRP_CALL_CONTROL, 1, DMRP_NO_SOLUTION, 0, 11'000};
-    calls[2] = {DMRP_CALL_CLASS, 0, DMRP_CLASS_HELD, 1, 0};
-    calls[3] = {DMRP_CALL_PEOPLE, 0, DMRP_OK, 0, 3'000};
+    calls[2] = {DMRP_CALL_PEOPLE, DMRP_ALL_ROBOTS, DMRP_OK, 0, 3'000};
+    events[0] = {DMRP_ROBOT_EVENT_CLASS, 0, k * 20'000'000, DMRP_CLASS_HELD, 1};
+    events[1] = {DMRP_ROBOT_EVENT_CLIPPED, 1, k * 20'000'000 - 10, 0, DMRP_NOBODY};
+    events[2] = {77, 1, k * 20'000'000, 0xffffffff, 0};  // of a kind that is not known
+    const dmrp_goal errand = {{x, 2.5, std::nan("")}, 0.2, 0.3, 0.1, 500'000'000};
+    task_events[0] = {k, 8, DMRP_TASK_RELEASED, DMRP_NOBODY, 0, 0, errand};
+    task_events[1] = {k, 7, DMRP_TASK_VISITED, 1, 2, 0, errand};
+    add_routes(k);
     sample.struct_size = sizeof(dmrp_sample);
     sample.control_tick = k % 5 == 0;
     sample.t_ns = k * 20'000'000;
@@ -146,11 +171,33 @@ struct ExampleSample {
     sample.contact_count = k % 3 == 0 ? 2 : 0;
     sample.contact_stride = sizeof(dmrp_contact);
     sample.calls = calls.data();
-    sample.call_count = k % 5 == 0 ? 4 : 1;
+    sample.call_count = k % 5 == 0 ? 3 : 1;
     sample.call_stride = sizeof(dmrp_call);
+    sample.events = events.data();
+    sample.event_count = k % 4 == 0 ? 3 : 0;
+    sample.event_stride = sizeof(dmrp_robot_event);
+    sample.task_events = task_events.data();
+    sample.task_event_count = k % 4 == 0 ? 2 : 0;
+    sample.task_event_stride = sizeof(dmrp_task_event);
   }
   ExampleSample(const ExampleSample&) = delete;
   ExampleSample& operator=(const ExampleSample&) = delete;
+
+  // The first robot's path grows, and begins anew in every eighth sample, where it is partial; the second robot has a
+  // path now and then.
+  void add_routes(std::int64_t k) {
+    const std::int64_t turn = k / 8;
+    for (std::int64_t i = 0; i <= k % 8 + 1; ++i)
+      course.push_back({0.1 * static_cast<double>(i), static_cast<double>(turn), std::nan(""), i + turn, 0, 0});
+    const auto count = static_cast<std::uint32_t>(course.size());
+    paths[0] = {sizeof(dmrp_path), count, sizeof(dmrp_waypoint), k % 8 == 0 ? DMRP_PATH_PARTIAL : 0, course.data()};
+    paths[1] = {sizeof(dmrp_path), 1, sizeof(dmrp_waypoint), 0, course.data()};
+    routes[0] = {0, k % 8 == 0 ? 0 : DMRP_PATH_CONTINUES, &paths[0]};
+    routes[1] = {1, 0, &paths[1]};
+    sample.routes = routes.data();
+    sample.route_count = k % 2 == 1 ? 0 : k % 3 == 0 ? 2 : 1;
+    sample.route_stride = sizeof(dmrp_route);
+  }
 };
 
 // A whole trial of `samples` steps: a second plan comes after half of them.

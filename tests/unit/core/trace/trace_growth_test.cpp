@@ -32,7 +32,7 @@ class OtherVersion {
     while (const auto record = records.next()) {
       TraceBytes bytes;
       ByteWriter out(bytes);
-      RecordCursor in(record->body, record->offset, trace_format_version);
+      RecordCursor in(record->body, record->offset);
       body(record->kind, in, out);
       out.put_array(filling_.data(), added_);
       ByteWriter whole(all);
@@ -79,9 +79,10 @@ class OtherVersion {
   }
 
   void world(RecordCursor& in, ByteWriter& out) {
-    copy(in, out, 4 + 4 + 32 + 32);
+    copy(in, out, 4 + 4 + 32 + 32 + 8);
     for (std::uint32_t robots = copy_count(in, out); robots > 0; --robots)
       block(in, out, [&](RecordCursor& robot) {
+        copy_array(robot, out, 1);
         copy_array(robot, out, 1);
         copy(robot, out, 4 + 24);
         block(robot, out, [&](RecordCursor& limits) { copy(limits, out, limits.rest().size()); });
@@ -91,7 +92,6 @@ class OtherVersion {
             block(footprint, out, [&](RecordCursor& part) { copy_array(part, out, 16); });
         });
         elements(robot, out);
-        copy_array(robot, out, 1);
       });
     for (std::uint32_t shapes = copy_count(in, out); shapes > 0; --shapes)
       block(in, out, [&](RecordCursor& shape) { copy(shape, out, shape.rest().size()); });
@@ -101,9 +101,12 @@ class OtherVersion {
   }
 
   void plan(RecordCursor& in, ByteWriter& out) {
-    copy(in, out, 5 * 8 + 2 * 4);
+    copy(in, out, 6 * 8 + 2 * 4);
     for (std::uint32_t paths = copy_count(in, out); paths > 0; --paths)
-      block(in, out, [&](RecordCursor& path) { elements(path, out); });
+      block(in, out, [&](RecordCursor& path) {
+        copy(path, out, 4);
+        elements(path, out);
+      });
     for (std::uint32_t statistics = copy_count(in, out); statistics > 0; --statistics)
       block(in, out, [&](RecordCursor& statistic) { copy(statistic, out, statistic.rest().size()); });
   }
@@ -113,7 +116,13 @@ class OtherVersion {
     if (kind == TraceRecordKind::plan) plan(in, out);
     if (kind == TraceRecordKind::sample) {
       copy(in, out, 8 + 8 + 4 + 8);
-      for (int arrays = 0; arrays < 4; ++arrays) elements(in, out);
+      for (int arrays = 0; arrays < 5; ++arrays) elements(in, out);
+      for (std::uint32_t routes = copy_count(in, out); routes > 0; --routes)
+        block(in, out, [&](RecordCursor& route) {
+          copy(route, out, 4 * 4);
+          elements(route, out);
+        });
+      elements(in, out);
     }
     if (kind == TraceRecordKind::end) {
       copy(in, out, 4 + 8);
@@ -164,68 +173,11 @@ TEST_CASE("fields that a trace has beyond ours are skipped", "[trace]") {
 TEST_CASE("elements shorter than those of version 1.0 of the contract are refused", "[trace]") {
   const TraceBytes trace = example_trace(8);
   for (const std::size_t size :
-       {sizeof(dmrp_goal), sizeof(dmrp_waypoint), sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_call)}) {
+       {sizeof(dmrp_goal), sizeof(dmrp_waypoint), sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_contact),
+        sizeof(dmrp_call), sizeof(dmrp_robot_event), sizeof(dmrp_task_event), sizeof(dmrp_robot_end)}) {
     const TraceBytes cut = OtherVersion(0, size, 8).of(trace);
     CHECK(cut.size() < trace.size());
     CHECK_THROWS_WITH(TraceReader(cut), Catch::Contains("elements shorter than those of version 1.0"));
-  }
-}
-
-TEST_CASE("fields that an element of the trace does not have are zero", "[trace]") {
-  const std::vector<dmrp_person> people(3, {7, 0, 1, {1, 2}, {3, 4}, 0.3, 1.2, {5, 6}, {7, 8}, {9, 10}, 5, 6});
-  const std::size_t stride = trace_element_size<dmrp_person>.format_1;
-  TraceBytes bytes;
-  ByteWriter out(bytes);
-  out.put(std::uint32_t{3});
-  for (const dmrp_person& person : people) out.put_array(reinterpret_cast<const std::uint8_t*>(&person), stride);
-
-  RecordCursor in(bytes, 0, 1);
-  TraceStorage storage;
-  const dmrp_person* taken = nullptr;
-  std::uint32_t count = 0;
-  std::uint32_t to_stride = 0;
-  TraceFieldReader(in, &storage).elements(taken, count, to_stride);
-  CHECK(in.at_end());
-  CHECK(to_stride == sizeof(dmrp_person));
-  REQUIRE(count == 3);
-  for (const dmrp_person& person : std::span(taken, count)) {
-    CHECK(std::memcmp(&person, &people[0], stride) == 0);
-    CHECK(person.reaction == DMRP_REACTION_UNSPECIFIED);
-    CHECK(person.reserved == 0);
-  }
-}
-
-TEST_CASE("contacts of an older trace have no impact speed", "[trace]") {
-  const TraceBytes older = OtherVersion(0, sizeof(dmrp_contact), sizeof(double)).of(example_trace(1));
-  TraceReader trace(older);
-  const dmrp_sample* read = trace.next_sample();
-  REQUIRE(read);
-  REQUIRE(read->contact_count == 2);
-  CHECK(read->contacts[0].depth_m == 0.0011);
-  CHECK(std::isnan(read->contacts[0].impact_speed));
-}
-
-TEST_CASE("the end of a robot without visits and culprit has none", "[trace]") {
-  const std::vector<dmrp_robot_end> ends(2, {DMRP_ROBOT_FAILED, DMRP_FAILURE_TIMEOUT, -1, 3, 1});
-  const std::size_t stride = trace_element_size<dmrp_robot_end>.least;
-  TraceBytes bytes;
-  ByteWriter out(bytes);
-  out.put(std::uint32_t{2});
-  out.put(static_cast<std::uint32_t>(stride));
-  for (const dmrp_robot_end& end : ends) out.put_array(reinterpret_cast<const std::uint8_t*>(&end), stride);
-
-  RecordCursor in(bytes, 0, trace_format_version);
-  TraceStorage storage;
-  const dmrp_robot_end* taken = nullptr;
-  std::uint32_t count = 0;
-  std::uint32_t to_stride = 0;
-  TraceFieldReader(in, &storage).elements(taken, count, to_stride);
-  REQUIRE(count == 2);
-  for (const dmrp_robot_end& end : std::span(taken, count)) {
-    CHECK(end.failure == DMRP_FAILURE_TIMEOUT);
-    CHECK(end.arrival_ns == -1);
-    CHECK(end.visits == 0);
-    CHECK(end.culprit == DMRP_NOBODY);
   }
 }
 

@@ -27,6 +27,11 @@ bool same_arrays(const Value* a, const Value* b, std::size_t count) {
   return std::memcmp(a, b, count * sizeof(Value)) == 0;
 }
 
+bool same_routes(const dmrp_route& a, const dmrp_route& b) {
+  return a.robot == b.robot && a.flags == b.flags && a.path->flags == b.path->flags && a.path->count == b.path->count &&
+         same_arrays(a.path->waypoints, b.path->waypoints, a.path->count);
+}
+
 // Goes through everything that a metric may read, so that a sanitizer sees what is wrong; adds it up.
 double touch(TraceReader& trace) {
   double sum = 0.0;
@@ -53,6 +58,13 @@ double touch(TraceReader& trace) {
       if (sample->contacts[c].kind == DMRP_CONTACT_PERSON) sum += sample->people[sample->contacts[c].b].position.x;
     }
     if (sample->plan) sum += static_cast<double>(sample->plan->planning_ns);
+    for (std::uint32_t e = 0; e < sample->event_count; ++e) sum += sample->robots[sample->events[e].robot].pose.y;
+    for (std::uint32_t e = 0; e < sample->task_event_count; ++e) {
+      const dmrp_task_event& event = sample->task_events[e];
+      sum += event.goal.pose.x + (event.robot == DMRP_NOBODY ? 0.0 : sample->robots[event.robot].pose.x);
+    }
+    for (std::uint32_t r = 0; r < sample->route_count; ++r)
+      for (std::uint32_t w = 0; w < sample->routes[r].path->count; ++w) sum += sample->routes[r].path->waypoints[w].x;
   }
   for (const auto& trajectory : trace.trajectories())
     for (const dmrp_pose& pose : trajectory.poses) sum += pose.theta;
@@ -137,6 +149,7 @@ TEST_CASE("a trace gives the world back", "[trace]") {
   CHECK(same_arrays(world.planning_grid->free, example.free.data(), 6));
   CHECK(same_arrays(world.planning_grid->edges, example.edges.data(), 6));
   CHECK(same_arrays(world.planning_grid->clearance, example.clearance.data(), 6));
+  CHECK(same_arrays(world.planning_grid->edge_cost, example.edge_cost.data(), 48));
 }
 
 TEST_CASE("a trace gives plans back, and the plan of each sample", "[trace]") {
@@ -151,10 +164,13 @@ TEST_CASE("a trace gives plans back, and the plan of each sample", "[trace]") {
   CHECK(made.plan.revision == 1);
   CHECK(made.plan.step_duration_ns == 1'800'000'000);
   CHECK(made.plan.planning_ns == 432'100);
+  CHECK(made.plan.processor_ns == 321'000);
   CHECK(made.plan.status == DMRP_OK);
   REQUIRE(made.plan.path_count == 2);
   REQUIRE(made.plan.paths[0].count == 2);
   REQUIRE(made.plan.paths[1].count == 3);
+  CHECK(made.plan.paths[0].flags == 0);
+  CHECK(made.plan.paths[1].flags == DMRP_PATH_PARTIAL);
   CHECK(same_arrays(made.plan.paths[0].waypoints, example.first.data(), 2));
   CHECK(same_arrays(made.plan.paths[1].waypoints, example.second.data(), 3));
   REQUIRE(made.plan.statistic_count == 2);
@@ -193,8 +209,42 @@ TEST_CASE("a trace gives samples back to the bit, repeatedly", "[trace]") {
       CHECK(same_arrays(sample->contacts, expected.contacts.data(), sample->contact_count));
       REQUIRE(sample->call_count == expected.sample.call_count);
       CHECK(same_arrays(sample->calls, expected.calls.data(), sample->call_count));
+      REQUIRE(sample->event_count == expected.sample.event_count);
+      CHECK(same_arrays(sample->events, expected.events.data(), sample->event_count));
+      REQUIRE(sample->task_event_count == expected.sample.task_event_count);
+      CHECK(same_arrays(sample->task_events, expected.task_events.data(), sample->task_event_count));
+      REQUIRE(sample->route_count == expected.sample.route_count);
+      for (std::uint32_t i = 0; i < sample->route_count; ++i) CHECK(same_routes(sample->routes[i], expected.routes[i]));
     }
     CHECK(trace.next_sample() == nullptr);
+  }
+}
+
+TEST_CASE("of a route that continues, a trace has the new waypoints alone", "[trace]") {
+  const ExampleWorld example;
+  std::vector<dmrp_waypoint> course(500);
+  for (std::size_t i = 0; i < course.size(); ++i) course[i].x = static_cast<double>(i);
+  TraceInMemory encoder(example.world);
+  std::vector<std::size_t> sizes;
+  for (const std::uint32_t count : {499u, 500u, 400u, 500u}) {
+    ExampleSample sample(1, nullptr);
+    const dmrp_path path = {sizeof(path), count, sizeof(dmrp_waypoint), 0, course.data()};
+    const dmrp_route route = {1, DMRP_PATH_CONTINUES, &path};
+    sample.sample.routes = &route;
+    sample.sample.route_count = 1;
+    const std::size_t before = encoder.bytes().size();
+    encoder->sample(sample.sample);
+    sizes.push_back(encoder.bytes().size() - before);
+  }
+  CHECK(sizes[1] == sizes[0] - 498 * sizeof(dmrp_waypoint));
+  CHECK(sizes[2] == sizes[0] - 499 * sizeof(dmrp_waypoint));
+  CHECK(sizes[3] == sizes[0] - 399 * sizeof(dmrp_waypoint));
+  TraceReader trace(encoder.bytes());
+  for (const std::uint32_t count : {499u, 500u, 400u, 500u}) {
+    const dmrp_sample* sample = trace.next_sample();
+    REQUIRE(sample->route_count == 1);
+    REQUIRE(sample->routes->path->count == count);
+    CHECK(same_arrays(sample->routes->path->waypoints, course.data(), count));
   }
 }
 
@@ -301,6 +351,26 @@ TEST_CASE("a contradictory trace is refused", "[trace]") {
     sample.contacts[1].b = 2;
     encoder->sample(sample.sample);
   }
+  SECTION("an event of an unknown robot") {
+    ExampleSample sample(0, nullptr);
+    sample.events[1].robot = 2;
+    encoder->sample(sample.sample);
+  }
+  SECTION("a task event of an unknown robot") {
+    ExampleSample sample(0, nullptr);
+    sample.task_events[1].robot = 2;
+    encoder->sample(sample.sample);
+  }
+  SECTION("a call for an unknown robot") {
+    ExampleSample sample(0, nullptr);
+    sample.calls[0].robot = 2;
+    encoder->sample(sample.sample);
+  }
+  SECTION("two routes of one robot") {
+    ExampleSample sample(0, nullptr);
+    sample.routes[1].robot = 0;
+    encoder->sample(sample.sample);
+  }
   SECTION("a plan of fewer paths") {
     dmrp_plan fewer = plan.plan;
     fewer.path_count = 1;
@@ -316,8 +386,11 @@ TEST_CASE("a contradictory trace is refused", "[trace]") {
 
 TEST_CASE("a trace of an unknown format version is refused", "[trace]") {
   TraceBytes bytes = example_trace(1);
-  bytes[dmrp::core::trace_record_prefix_bytes] = 3;
-  CHECK_THROWS_WITH(TraceReader(bytes), "trace, byte 5: format version 3; this program reads versions 1 to 2");
+  for (const std::uint8_t version : {1, 2, 4}) {
+    bytes[dmrp::core::trace_record_prefix_bytes] = version;
+    CHECK_THROWS_WITH(TraceReader(bytes), "trace, byte 5: format version " + std::to_string(version) +
+                                              "; this program reads version 3: run the experiment again");
+  }
   bytes[dmrp::core::trace_record_prefix_bytes] = 0;
   CHECK_THROWS_AS(TraceReader(bytes), TraceError);
   CHECK_THROWS_AS(TraceReader(TraceBytes{}), TraceError);

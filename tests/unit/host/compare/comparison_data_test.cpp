@@ -2,7 +2,6 @@
 #include "host/compare/comparison_data.hpp"
 
 #include <catch2/catch.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
@@ -19,12 +18,9 @@ TEST_CASE("the data of a comparison's page have both runs and the differences", 
   MetricComparison done;
   done.metric = "done";
   done.pairs = 10;
-  done.seeds = 5;
   done.before = 0.5;
   done.after = 0.75;
-  done.difference = 0.25;
-  done.interval = {0.125, 0.375};
-  done.p = std::numeric_limits<double>::quiet_NaN();
+  done.difference.over_tasks = {5, 0.25, 0.1, {0.125, 0.375}};
   MetricComparison none;
   none.metric = "time";
   other.comparison.pairs = 10;
@@ -39,6 +35,7 @@ TEST_CASE("the data of a comparison's page have both runs and the differences", 
   CHECK(json["metrics"][2]["name"] == "done");
   const auto& run = json["runs"][0];
   CHECK(run["path"] == "runs/b");
+  CHECK(run["differences"][0]["tasks"] == 5);
   CHECK(run["differences"][0]["difference"] == 0.25);
   CHECK(run["differences"][0]["low"] == 0.125);
   CHECK(run["differences"][0]["p"].is_null());

@@ -30,7 +30,7 @@ ReportRun run_of(std::vector<TrialRecord> trials) {
   return run;
 }
 
-// Of ten seeds, this many fail.
+// Of so many tasks, this many fail.
 std::vector<TrialRecord> with_failures(std::uint32_t failing, std::uint32_t repetitions = 10) {
   std::vector<TrialRecord> trials;
   add_trials(trials, "c", repetitions, [=](std::uint32_t i) {
@@ -39,8 +39,9 @@ std::vector<TrialRecord> with_failures(std::uint32_t failing, std::uint32_t repe
   return trials;
 }
 
-RunComparison compare(std::uint32_t before, std::uint32_t after) {
-  return compare_runs(run_of(with_failures(before)), run_of(with_failures(after)), layouts(), names);
+RunComparison compare(std::uint32_t before, std::uint32_t after, std::uint32_t repetitions = 10) {
+  return compare_runs(run_of(with_failures(before, repetitions)), run_of(with_failures(after, repetitions)), layouts(),
+                      names);
 }
 
 Verdict verdict(const std::string& condition, const RunComparison& comparison) {
@@ -55,8 +56,8 @@ TEST_CASE("runs are compared trial by trial", "[compare]") {
   const MetricComparison& done = found.metrics.at(0);
   CHECK(done.before == 1.0);
   CHECK(done.after == Approx(0.8));
-  CHECK(done.difference == Approx(-0.2));
-  CHECK(done.interval.low < -0.2);
+  CHECK(done.difference.over_tasks.mean == Approx(-0.2));
+  CHECK(done.difference.over_tasks.interval.low < -0.2);
   CHECK(found.metrics.at(1).after == Approx(52.0));  // four times the limit of 100 s, six times 20 s
 }
 
@@ -72,7 +73,7 @@ TEST_CASE("trials are matched by scenario, robots, seed and labels", "[compare]"
   CHECK(found.only_after == 3);
 }
 
-TEST_CASE("combinations under the same seed are one observation", "[compare]") {
+TEST_CASE("combinations on the same task are one observation, and so are its crowds", "[compare]") {
   const auto twice = [](std::uint32_t failing) {
     auto trials = with_failures(failing, 6);
     for (const TrialRecord& trial : with_failures(failing, 6)) {
@@ -83,7 +84,17 @@ TEST_CASE("combinations under the same seed are one observation", "[compare]") {
   };
   const RunComparison found = compare_runs(run_of(twice(0)), run_of(twice(3)), layouts(), names);
   CHECK(found.metrics[0].pairs == 12);
-  CHECK(found.metrics[0].seeds == 6);
+  CHECK(found.metrics[0].difference.over_tasks.n == 6);
+
+  const auto on_two_tasks = [&](std::uint32_t failing) {
+    auto trials = twice(failing);
+    for (TrialRecord& trial : trials) trial.task = std::to_string(trial.repetition % 2);
+    return run_of(trials);
+  };
+  const RunComparison crowds = compare_runs(on_two_tasks(0), on_two_tasks(3), layouts(), names);
+  CHECK(crowds.metrics[0].pairs == 12);
+  CHECK(crowds.metrics[0].difference.over_tasks.n == 2);
+  CHECK(std::isnan(crowds.metrics[0].difference.p));
 }
 
 TEST_CASE("each combination is compared on its own", "[compare]") {
@@ -98,14 +109,14 @@ TEST_CASE("each combination is compared on its own", "[compare]") {
   const RunComparison found = compare_runs(both(0), both(8), layouts(), names);
   REQUIRE(found.combinations.size() == 2);
   CHECK(found.combinations[0].combination.local_controller == "c");
-  CHECK(found.combinations[0].metrics[0].difference == 0.0);
-  CHECK(std::isnan(found.combinations[0].metrics[0].p_holm));
+  CHECK(found.combinations[0].metrics[0].difference.equal);
+  CHECK(std::isnan(found.combinations[0].metrics[0].difference.p_holm));
   const MetricComparison& changed = found.combinations[1].metrics[0];
   CHECK(found.combinations[1].combination.local_controller == "d");
   CHECK(changed.pairs == 10);
-  CHECK(changed.difference == Approx(-0.4));
-  CHECK(changed.p < 0.05);
-  CHECK(changed.p_holm >= changed.p);
+  CHECK(changed.difference.over_tasks.mean == Approx(-0.4));
+  CHECK(changed.difference.p < 0.05);
+  CHECK(changed.difference.p_holm >= changed.difference.p);
 }
 
 TEST_CASE("plugin libraries are compared by name and hash", "[compare]") {
@@ -125,15 +136,20 @@ TEST_CASE("plugin libraries are compared by name and hash", "[compare]") {
 
 TEST_CASE("a condition fails, holds, or cannot be decided", "[compare]") {
   CHECK(verdict("done < -0.02", compare(0, 0)) == Verdict::holds);
-  CHECK(verdict("done < -0.02", compare(0, 10)) == Verdict::fails);
-  CHECK(verdict("done < -0.02", compare(0, 1)) == Verdict::undecided);  // -0.05, with an interval from -0.15 to 0
-  CHECK(verdict("done > 0.1", compare(10, 0)) == Verdict::fails);
-  CHECK(verdict("done > 0.1", compare(0, 10)) == Verdict::holds);
+  CHECK(verdict("done < -0.02", compare(0, 40, 40)) == Verdict::fails);
+  CHECK(verdict("done < -0.02", compare(0, 1)) == Verdict::undecided);  // -0.05, with an interval that reaches 0
+  CHECK(verdict("done > 0.1", compare(40, 0, 40)) == Verdict::fails);
+  CHECK(verdict("done > 0.1", compare(0, 40, 40)) == Verdict::holds);
 
-  SECTION("five seeds never fail it") {
-    const auto few = [](std::uint32_t failing) { return run_of(with_failures(failing, 5)); };
-    CHECK(verdict("done < -0.02", compare_runs(few(0), few(5), layouts(), names)) == Verdict::undecided);
-    CHECK(verdict("done < -0.02", compare_runs(few(0), few(0), layouts(), names)) == Verdict::holds);
+  SECTION("one task never fails it, but equal runs hold") {
+    const auto on_one_task = [](std::uint32_t failing) {
+      auto trials = with_failures(failing);
+      for (TrialRecord& trial : trials) trial.task = "the same";
+      return run_of(trials);
+    };
+    CHECK(verdict("done < -0.02", compare_runs(on_one_task(0), on_one_task(10), layouts(), names)) ==
+          Verdict::undecided);
+    CHECK(verdict("done < -0.02", compare_runs(on_one_task(0), on_one_task(0), layouts(), names)) == Verdict::holds);
   }
 }
 

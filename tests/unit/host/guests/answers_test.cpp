@@ -28,8 +28,9 @@ struct Planned {
 };
 
 json plan_message(const json& counts) {
-  return {{"status", 0},     {"planning_ns", 5}, {"processor_ns", 4}, {"text", ""}, {"statistics", json::array()},
-          {"counts", counts}};
+  return {
+      {"status", 0},      {"planning_ns", 5},        {"processor_ns", 4}, {"text", ""}, {"statistics", json::array()},
+      {"counts", counts}, {"partial", json::array()}};
 }
 
 }  // namespace
@@ -40,9 +41,11 @@ TEST_CASE("a plan passes as it was given") {
   given.status = 0;
   given.planning_ns = 123;
   given.statistics = {{"expanded", 1e300}};
+  given.partial = {false, true};
   given.paths = {{{1.0, 2.0, 0.5, 0, 0, 0}, {2.0, 2.0, 0.5, 1000, 0, 0}}, {{3.0, 1.0, 0.0, 0, 0, 0}}};
   const PlannerAnswer got = planner_answer(plan_text(given, planned.input, site), planned.input, 2, site);
   CHECK(got.planning_ns == 123);
+  CHECK(got.partial == given.partial);
   CHECK(got.statistics.at(0).value == 1e300);
   REQUIRE(got.paths.size() == 2);
   CHECK(std::memcmp(got.paths[0].data(), given.paths[0].data(), 2 * sizeof(dmrp_waypoint)) == 0);
@@ -58,6 +61,9 @@ TEST_CASE("a plan that cannot be is a fault of its planner") {
     CHECK_THROWS_AS(planned.answer(plan_message(counts)), PluginFault);
   }
   CHECK_THROWS_AS(planner_answer("{", planned.input, 2, site), PluginFault);
+  json flags = plan_message({3, 5});
+  flags["partial"] = {true};
+  CHECK_THROWS_AS(planned.answer(flags), PluginFault);
   PlannerAnswer large;
   large.paths = {std::vector<dmrp_waypoint>(9), {}};
   CHECK_THROWS_AS(plan_text(large, planned.input, site), PluginFault);

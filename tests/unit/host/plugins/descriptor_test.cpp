@@ -35,18 +35,14 @@ dmrp_metric_value_spec value(const char* name) {
   return {name, "m", "what it is", DMRP_DIRECTION_LOWER, 1u << DMRP_SUBJECT_SYSTEM, 0, 0};
 }
 
-// Gives a descriptor an array.
-template <class Element>
-void give(dmrp_descriptor& descriptor, const GrownArray<Element>& elements) {
-  if constexpr (std::is_same_v<Element, dmrp_param_spec>) {
-    descriptor.params = elements.data();
-    descriptor.param_count = elements.count();
-    descriptor.param_stride = elements.stride();
-  } else {
-    descriptor.values = elements.data();
-    descriptor.value_count = elements.count();
-    descriptor.value_stride = elements.stride();
-  }
+void give(dmrp_descriptor& descriptor, const GrownArray<dmrp_param_spec>& elements) {
+  descriptor.params = elements.data();
+  descriptor.param_count = elements.count();
+  descriptor.param_stride = elements.stride();
+}
+
+dmrp_metric_traits metric_traits(const GrownArray<dmrp_metric_value_spec>& values) {
+  return {sizeof(dmrp_metric_traits), 0, values.data(), values.count(), values.stride()};
 }
 
 template <class Element>
@@ -82,7 +78,7 @@ std::string refusal_of_descriptor(const std::function<void(dmrp_descriptor&)>& s
 }  // namespace
 
 TEST_CASE("the known part of a newer plugin's descriptor is read") {
-  const int extra = GENERATE(8, 12, 1);  // array elements: a stride need not be a multiple of 8
+  const int extra = GENERATE(0, 8, 24);
   const OddLibrary odd;
   dmrp_param_spec gain = parameter("gain", DMRP_PARAM_DOUBLE);
   gain.number = 0.5;
@@ -99,12 +95,13 @@ TEST_CASE("the known part of a newer plugin's descriptor is read") {
   const auto specs = array_of(std::vector{gain, weights, side}, extra);
   give(odd.descriptor(odd_metric), specs);
   const auto values = array_of(std::vector{value("first"), value("second")}, extra);
-  give(odd.descriptor(odd_metric), values);
+  const Grown<dmrp_metric_traits> traits(metric_traits(values), 8);
+  odd.descriptor(odd_metric).traits = traits.get();
   const Grown<dmrp_descriptor> newer(odd.descriptor(odd_metric), 16);
   static const dmrp_descriptor* shown;
   shown = newer.get();
-  odd.entry().plugin_count = []() -> std::uint32_t { return 1; };
-  odd.entry().descriptor = [](std::uint32_t) { return shown; };
+  odd.entry().plugin_count = [](const dmrp_entry*) -> std::uint32_t { return 1; };
+  odd.entry().descriptor = [](const dmrp_entry*, std::uint32_t) { return shown; };
   odd.entry().struct_size += 8;
 
   const Library library(DMRP_ODD_PLUGINS);
@@ -138,14 +135,33 @@ TEST_CASE("what is shorter than v1.0's is refused") {
     metric.struct_size -= 8;
     CHECK(OddLibrary::refusal() == "has a descriptor that is shorter than v1.0's");
   }
+  const std::string odd_array = " that are shorter than v1.0's, or whose stride is no multiple of 8";
   SECTION("its parameters") {
-    metric.param_stride -= 8;
-    CHECK(OddLibrary::refusal() == "has a descriptor with parameters that are shorter than v1.0's");
+    metric.param_stride += GENERATE(-8u, 4u);
+    CHECK(OddLibrary::refusal() == "has a descriptor with parameters" + odd_array);
   }
   SECTION("its values") {
-    metric.value_stride = 0;
-    CHECK(OddLibrary::refusal() == "has a descriptor with values that are shorter than v1.0's");
+    auto traits = odd.traits<dmrp_metric_traits>(odd_metric);
+    traits.value_stride = GENERATE(0u, 44u);
+    metric.traits = &traits;
+    CHECK(OddLibrary::refusal() == "has a descriptor with values" + odd_array);
   }
+  SECTION("its traits") {
+    auto traits = odd.traits<dmrp_metric_traits>(odd_metric);
+    traits.struct_size -= 8;
+    metric.traits = &traits;
+    CHECK(OddLibrary::refusal() == "has traits that are shorter than v1.0's");
+  }
+}
+
+TEST_CASE("a controller without traits drives differential drives, a planner without traits is refused") {
+  const OddLibrary odd;
+  CHECK(info_of(Library(DMRP_ODD_PLUGINS), "test.odd.controller").kinematics == 1u << DMRP_KINEMATICS_DIFFERENTIAL);
+  const dmrp_controller_traits any = {sizeof(any), 1u << DMRP_KINEMATICS_ACKERMANN};
+  odd.descriptor(odd_controller).traits = &any;
+  CHECK(info_of(Library(DMRP_ODD_PLUGINS), "test.odd.controller").kinematics == 1u << DMRP_KINEMATICS_ACKERMANN);
+  odd.descriptor(odd_planner).traits = nullptr;
+  CHECK(OddLibrary::refusal() == "'test.odd.planner' is a planner that declares no connectivity (4, 8, any)");
 }
 
 TEST_CASE("a library of another draft, or for a newer host, gets one line") {
@@ -153,7 +169,7 @@ TEST_CASE("a library of another draft, or for a newer host, gets one line") {
   SECTION("draft 1") {
     odd.entry().abi_draft = 1;
     odd.entry().struct_size = 48;  // whatever else that draft had
-    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 2: build it again");
+    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 3: build it again");
   }
   SECTION("a newer host") {
     odd.entry().min_host_minor = 3;
@@ -176,9 +192,17 @@ TEST_CASE("a plugin that this host does not know is left out with a note, and th
   }
   SECTION("a connectivity") {
     stranger.kind = DMRP_KIND_GLOBAL_PLANNER;
-    stranger.connectivity = 16;
+    const dmrp_planner_traits traits = {sizeof(traits), 16};
+    stranger.traits = &traits;
     expect_note(
         "its plugin 'test.odd.stranger' is left out: it plans with connectivity 16, which this host does not know");
+  }
+  SECTION("a flag that must be understood") {
+    stranger.kind = DMRP_KIND_PEDESTRIAN_MODEL;
+    stranger.flags = 1u << 20 | 1u << 10;
+    expect_note(
+        "its plugin 'test.odd.stranger' is left out: it has the flags 0x100000 of DMRP_FLAGS_NEEDED, which this host "
+        "does not know");
   }
   SECTION("the type of a parameter") {
     stranger.kind = DMRP_KIND_PEDESTRIAN_MODEL;
@@ -259,7 +283,8 @@ TEST_CASE("what is declared twice is refused") {
   }
   SECTION("a value") {
     const auto values = array_of(std::vector{value("length"), value("length")});
-    give(metric, values);
+    const dmrp_metric_traits traits = metric_traits(values);
+    metric.traits = &traits;
     CHECK(OddLibrary::refusal() == "test.odd.metric: declares the value 'length' twice");
   }
 }
@@ -270,14 +295,16 @@ TEST_CASE("a metric's value needs a plain name and the system") {
   SECTION("a name with a space") {
     spec.name = "the length";
     const auto values = array_of(std::vector{spec});
-    give(odd.descriptor(odd_metric), values);
+    const dmrp_metric_traits traits = metric_traits(values);
+    odd.descriptor(odd_metric).traits = &traits;
     CHECK(OddLibrary::refusal() ==
           "test.odd.metric: has a value whose name 'the length' is not made of letters, digits and '_'");
   }
   SECTION("robots alone") {
     spec.subjects = 1u << DMRP_SUBJECT_ROBOT;
     const auto values = array_of(std::vector{spec});
-    give(odd.descriptor(odd_metric), values);
+    const dmrp_metric_traits traits = metric_traits(values);
+    odd.descriptor(odd_metric).traits = &traits;
     CHECK(OddLibrary::refusal() ==
           "test.odd.metric: declares the value 'length' without the system among its subjects");
   }

@@ -14,7 +14,9 @@ using namespace dmrp::test;
 
 namespace {
 
-const std::map<int, std::string> status_names = {{2, "DMRP_NO_SOLUTION (2)"}, {3, "DMRP_TIMEOUT (3)"}, {42, "42"}};
+// Of no function but the controllers' and planners'. 20 is an answer of a later minor version.
+const std::map<int, std::string> status_names = {
+    {2, "DMRP_NO_SOLUTION (2)"}, {3, "DMRP_TIMEOUT (3)"}, {20, "DMRP_NO_SOLUTION (20)"}, {64, "64"}};
 
 void check_breach(const PluginFault& fault, const std::string& function, int status) {
   INFO(function << " " << status << ": " << fault.what());
@@ -35,13 +37,16 @@ TEST_CASE("create and start may not return NO_SOLUTION or TIMEOUT") {
   CHECK_NOTHROW(odd.start(odd.make("create 1")));
   CHECK_NOTHROW(odd.start(odd.make("start 1")));
   CHECK(odd.fault("create 5").kind() == std::string(fault_kind::error_status));
+  CHECK(odd.fault("create 42").kind() == std::string(fault_kind::error_status));  // an error of a later minor version
+  CHECK(odd.fault("create 7").kind() == std::string(fault_kind::abi_breach));
+  CHECK(odd.fault("start 7").kind() == std::string(fault_kind::unsupported));
   CHECK(odd.fault("start 6").fatal());
 }
 
 TEST_CASE("init may not return NO_SOLUTION or TIMEOUT") {
   const OddLibrary odd;
   static int status;
-  odd.entry().init = [](const dmrp_host*) -> std::int32_t { return status; };
+  odd.entry().init = [](const dmrp_entry*, const dmrp_host*) -> std::int32_t { return status; };
   CallNote note{};
   CallGuard guard{note};
   const std::vector<LibraryUse> uses = {{"odd", DMRP_ODD_PLUGINS, {}}};
@@ -96,8 +101,7 @@ TEST_CASE("function tables of newer plugins are read as far as they are known, s
     } catch (const PluginFault& fault) {
       CHECK(fault.kind() == std::string(fault_kind::abi_breach));
       CHECK(fault.function() == std::string("create"));
-      CHECK_THAT(fault.what(),
-                 Catch::StartsWith("returned OK but did not fill in dmrp_plugin.table->struct_size ("));
+      CHECK_THAT(fault.what(), Catch::StartsWith("returned OK but did not fill in dmrp_plugin.table->struct_size ("));
     }
   }
 }
@@ -171,7 +175,9 @@ TEST_CASE("a plugin knows the host's version of the contract and its own file") 
   // and so does its library, however it is named
   const OddLibrary changed;
   static std::string path;
-  changed.entry().init = [](const dmrp_host* host) -> std::int32_t { return path = host->library_path, DMRP_OK; };
+  changed.entry().init = [](const dmrp_entry*, const dmrp_host* host) -> std::int32_t {
+    return path = host->library_path, DMRP_OK;
+  };
   const std::vector<LibraryUse> uses = {{"odd", std::filesystem::relative(DMRP_ODD_PLUGINS), {}}};
   const InstancePool pool(uses, odd.guard, [](auto, const auto&, const auto&) {});
   CHECK(std::filesystem::path(path).is_absolute());

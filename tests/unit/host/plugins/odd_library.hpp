@@ -36,7 +36,13 @@ class OddLibrary {
 
   dmrp_entry& entry() const { return *entry_; }
   dmrp_descriptor& descriptor(std::uint32_t index) const {
-    return const_cast<dmrp_descriptor&>(*entry_before_.descriptor(index));
+    return const_cast<dmrp_descriptor&>(*entry_before_.descriptor(entry_, index));
+  }
+
+  // The traits of the descriptor `index`: dmrp_planner_traits, dmrp_metric_traits.
+  template <class Traits>
+  Traits& traits(std::uint32_t index) const {
+    return *static_cast<Traits*>(const_cast<void*>(descriptor(index).traits));
   }
 
   // Why the host does not load the library; "" if it does.

@@ -52,8 +52,8 @@ TEST_CASE("a status that a function may not return is a breach that names it") {
       CHECK_THROWS_WITH(timeout_stage.fault(), "no fault");
     else
       check_fault(timeout_stage, fault_kind::abi_breach, function, "returned DMRP_TIMEOUT (3)");
-    OddStage unknown_stage(id, function + " 42", id == central ? id : "");
-    check_fault(unknown_stage, fault_kind::abi_breach, function, "status 42");
+    OddStage unknown_stage(id, function + " 99", id == central ? id : "");
+    check_fault(unknown_stage, fault_kind::abi_breach, function, "status 99");
     OddStage warning_stage(id, function + " 1", id == central ? id : "");
     CHECK_THROWS_WITH(warning_stage.fault(), "no fault");
   }
@@ -101,6 +101,12 @@ TEST_CASE("structs that are shorter than v1.0's are refused by the sinks") {
                                                  {metric, "subject", "finish", "the host refuses the event"}}) {
     INFO(what);
     OddStage stage(id, std::string("short ") + what);
+    check_fault(stage, fault_kind::error_status, function, text);
+  }
+  for (const auto& [id, what, function, text] : {std::tuple(planner, "waypoint", "plan", "the host refuses the path"),
+                                                 {metric, "subject", "finish", "the host refuses the event"}}) {
+    INFO(what);
+    OddStage stage(id, std::string("odd stride ") + what);
     check_fault(stage, fault_kind::error_status, function, text);
   }
   for (const std::string what : {"trajectory", "note"}) {
@@ -208,9 +214,42 @@ TEST_CASE("a central controller brakes one robot, or is at fault for one") {
   CHECK(breach.what() == std::string("gave the status 99, which status.h does not allow a command"));
 }
 
-TEST_CASE("a path with a reserved field that is set is refused") {
-  for (const std::string part : {"path", "waypoint"}) {
-    OddStage stage(planner, "reserved " + part);
-    check_fault(stage, fault_kind::error_status, "plan", "a reserved field of its " + part);
+TEST_CASE("a path with a reserved field or an unknown flag that is set is refused") {
+  OddStage waypoint(planner, "reserved waypoint");
+  check_fault(waypoint, fault_kind::error_status, "plan", "a reserved field of its waypoints is 7, not 0");
+  OddStage flags(planner, "unknown flags");
+  check_fault(flags, fault_kind::error_status, "plan", "its flags are 0x8, which this host does not know");
+}
+
+TEST_CASE("a partial path is refused where no window was asked for") {
+  OddStage stage(planner, "partial");
+  check_fault(stage, fault_kind::bad_output, "plan", "robot 0 has a partial path, but the whole way was asked for");
+}
+
+TEST_CASE("a plugin may say that a trial is not for it, and that is no breach") {
+  for (const auto& [id, function] :
+       {std::pair(planner, "start"), {planner, "plan"}, {controller, "start"}, {people, "start"}}) {
+    INFO(id << " " << function);
+    OddStage stage(id, std::string(function) + " 7");
+    check_fault(stage, fault_kind::unsupported, function, "DMRP_UNSUPPORTED");
+  }
+  for (const std::string function : {"start", "begin"}) {
+    OddStage stage(metric, function + " 7");
+    stage.run();
+    const MetricResult result = stage.measured();
+    REQUIRE(result.values.size() == 1);
+    CHECK(result.values[0].metric == "odd");
+    CHECK_FALSE(result.values[0].value);
+    CHECK(result.events.empty());
+  }
+  for (const auto& [id, function] : {std::pair(controller, "set_path"),
+                                     {controller, "step"},
+                                     {people, "step"},
+                                     {planner, "trial_end"},
+                                     {metric, "observe"},
+                                     {metric, "finish"}}) {
+    INFO(id << " " << function);
+    OddStage stage(id, std::string(function) + " 7");
+    check_fault(stage, fault_kind::abi_breach, function, "DMRP_UNSUPPORTED (7)");
   }
 }

@@ -21,14 +21,17 @@ MakeRobots always(const std::vector<RobotResult>& robots) {
   return [robots](std::uint32_t) { return robots; };
 }
 
-// Arrive after `s_per_m` for each metre of their ways, on a task of the repetition's own if `drawn`.
-MakeRobots with_pace(double s_per_m, bool drawn = false) {
+// Arrive after `s_per_m` for each metre of their ways.
+MakeRobots with_pace(double s_per_m) {
   return [=](std::uint32_t i) {
-    const double way = drawn ? 10.0 + i : 10.0;
     const double noise = 0.01 * (i % 3);
-    return std::vector<RobotResult>{{(s_per_m + noise) * way, true, way},
-                                    {(s_per_m + noise) * 2.0 * way, true, 2.0 * way}};
+    return std::vector<RobotResult>{{(s_per_m + noise) * 10.0, true, 10.0}, {(s_per_m + noise) * 20.0, true, 20.0}};
   };
+}
+
+// The trials in other worlds: world k has the tasks of repetitions k, k + worlds, ...
+void spread_over_worlds(std::vector<TrialRecord>& trials, std::uint32_t worlds) {
+  for (TrialRecord& trial : trials) trial.scenario = "world " + std::to_string(trial.repetition % worlds);
 }
 
 std::vector<Answer> answers_of(const std::vector<TrialRecord>& trials) {
@@ -45,6 +48,10 @@ std::vector<std::string> lines_of(const std::vector<TrialRecord>& trials) {
   return answer_lines(answer_of(trials), failure_causes(ranking_layout(), trials));
 }
 
+std::vector<std::string> lines_of_first(const std::vector<TrialRecord>& trials) {
+  return answer_lines(answers_of(trials).front(), failure_causes(ranking_layout(), trials));
+}
+
 std::vector<std::string> order_of(const Answer& answer) {
   std::vector<std::string> names;
   for (const RankedCombination& one : answer.ranking) names.push_back(one.local_controller);
@@ -55,7 +62,7 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("safety comes before success, and success before time", "[ranking]") {
+TEST_CASE("safety comes before time", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "fast but unsafe", 20, [](std::uint32_t) {
     return std::vector<RobotResult>{{5.0, false, 10.0}, {5.0, true, 20.0}};
@@ -64,14 +71,15 @@ TEST_CASE("safety comes before success, and success before time", "[ranking]") {
   add_trials(trials, "fails", 20, always(one_fails));
   add_trials(trials, "good", 20, with_pace(2.0));
   const Answer answer = answer_of(trials);
-  // the unsafe one and the failing one are equally unsafe; the failing one arrives less often
   CHECK(order_of(answer) == Names{"good", "slow", "fast but unsafe", "fails"});
   for (std::size_t i = 1; i < 4; ++i) CHECK(answer.ranking[i].standing == Standing::worse);
-  CHECK(answer.ranking[1].decided == 2u);
-  CHECK(answer.ranking[1].against[2].mean == Approx(1.0));  // s/m
+  REQUIRE(answer.criteria.size() == 2);
+  CHECK(answer.ranking[1].decided == 1u);
+  CHECK(answer.ranking[1].against[1].over_tasks.mean == Approx(1.0));  // s/m
   CHECK(answer.ranking[2].decided == 0u);
-  CHECK(answer.ranking[2].against[0].mean == Approx(-0.5));
-  CHECK_THAT(answer_lines(answer, {}).front(), Contains("Best: P + good"));
+  CHECK(answer.ranking[2].against[0].over_tasks.mean == Approx(-0.5));
+  CHECK_THAT(answer_lines(answer, {}).front(),
+             Contains("With 95 % confidence P + good is the best of these: safe 1.00 ["));
 }
 
 TEST_CASE("the time of each robot counts relative to its own shortest way", "[ranking]") {
@@ -80,9 +88,9 @@ TEST_CASE("the time of each robot counts relative to its own shortest way", "[ra
   add_trials(trials, "a", 12, always({{30.0, true, 10.0}, {200.0, true, 100.0}}));
   add_trials(trials, "b", 12, always({{20.0, true, 10.0}, {300.0, true, 100.0}}));
   const Answer answer = answer_of(trials);
-  CHECK(answer.ranking[0].means[2] == Approx(2.5));
-  CHECK(answer.ranking[1].means[2] == Approx(2.5));
-  CHECK(answer.ranking[1].standing == Standing::not_told_apart);
+  CHECK(answer.ranking[0].means[1] == Approx(2.5));
+  CHECK(answer.ranking[1].means[1] == Approx(2.5));
+  CHECK(answer.ranking[1].standing == Standing::may_be_best);
 }
 
 TEST_CASE("two labels for one controller are the same", "[ranking]") {
@@ -91,33 +99,22 @@ TEST_CASE("two labels for one controller are the same", "[ranking]") {
   add_trials(trials, "two", 20, with_pace(2.0));
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"one", "two"});
-  CHECK(answer.ranking[1].standing == Standing::not_told_apart);
-  CHECK_FALSE(answer.needed);  // nothing deviates
-  CHECK_THAT(answer_lines(answer, {}).front(), Contains("Not told apart from it: P + two (the same in every trial)"));
+  CHECK(answer.ranking[1].standing == Standing::may_be_best);
+  CHECK_FALSE(tasks_needed(answer, 0.05));  // nothing deviates
+  CHECK_THAT(answer_lines(answer, {}).front(),
+             Contains("the best of these is among P + one and P + two (as the first in every trial). First: P + one"));
 }
 
-TEST_CASE("few trials tell nothing apart, and say how many it takes", "[ranking]") {
+TEST_CASE("fewer than five tasks tell nothing apart, and say so", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "good", 4, always(both_arrive));
   add_trials(trials, "fails", 4, always(one_fails));
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"good", "fails"});
-  CHECK(answer.ranking[1].standing == Standing::not_told_apart);
-  CHECK_FALSE(answer.needed);  // below ten
-  // two tests (both shares differ, the time does not): 2 * 2^(1 - n) < 0.05 from n = 7 on
-  CHECK_THAT(answer_lines(answer, {}).back(),
-             Contains("4 crowd seeds cannot tell so many combinations apart: it takes at least 7."));
-
-  SECTION("as many as that do") {
-    std::vector<TrialRecord> more;
-    add_trials(more, "good", 7, always(both_arrive));
-    add_trials(more, "fails", 7, always(one_fails));
-    CHECK(answer_of(more).ranking[1].standing == Standing::worse);
-    more.clear();
-    add_trials(more, "good", 6, always(both_arrive));
-    add_trials(more, "fails", 6, always(one_fails));
-    CHECK(answer_of(more).ranking[1].standing == Standing::not_told_apart);
-  }
+  CHECK(answer.ranking[1].standing == Standing::may_be_best);
+  CHECK(std::isnan(answer.ranking[1].against[0].p));
+  CHECK_FALSE(tasks_needed(answer, 0.05));  // below ten
+  CHECK_THAT(answer_lines(answer, {}).front(), Contains("Fewer than 5 tasks tell nothing apart."));
 }
 
 TEST_CASE("a rare failure does not make a combination worse", "[ranking]") {
@@ -126,26 +123,17 @@ TEST_CASE("a rare failure does not make a combination worse", "[ranking]") {
   add_trials(trials, "nearly", 20, [](std::uint32_t i) { return i == 3 ? one_fails : both_arrive; });
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"good", "nearly"});
-  CHECK(answer.ranking[1].standing == Standing::not_told_apart);
-  // sd of nineteen 0 and one -0.5: 0.1118; ((1.960 + 0.842) * 0.1118 / 0.05)^2 + 1.960^2 / 2 = 41.2
-  CHECK(answer.needed.value() == 42);
-  CHECK_THAT(answer_lines(answer, {}).back(), Contains("5 points in safe would show with about 42 crowd seeds"));
+  CHECK(answer.ranking[1].standing == Standing::may_be_best);
+  // sd of nineteen 0 and one -0.5: 0.1118, at a level of 0.05 / 2:
+  // ((2.241 + 0.842) * 0.1118 / 0.05)^2 + 2.241^2 / 2 = 50.0
+  CHECK(tasks_needed(answer, 0.05).value() == 51);
+  CHECK(tasks_needed(answer, 0.1).value() < 20);
+  CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
+                                   "A difference of 5 points in safe would show with about 51 tasks (from how the "
+                                   "pairs deviate).")));
 }
 
-TEST_CASE("how many trials a difference needs follows from how the pairs deviate, not from the effect", "[ranking]") {
-  const auto needed_with_shift = [](int failures) {
-    std::vector<TrialRecord> trials;
-    add_trials(trials, "a", 20,
-               [=](std::uint32_t i) { return static_cast<int>(i) < failures ? one_fails : both_arrive; });
-    add_trials(trials, "b", 20, [](std::uint32_t i) { return i == 19 ? one_fails : both_arrive; });
-    return answer_of(trials).needed.value();
-  };
-  // no effect, deviation 0.1622; an effect of -0.025, deviation 0.1970
-  CHECK(needed_with_shift(1) == 85);
-  CHECK(needed_with_shift(2) == 124);
-}
-
-TEST_CASE("who is faster but not as safe is named, and not worse", "[ranking]") {
+TEST_CASE("who is faster but not as safe is not the better", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "safe", 20, with_pace(3.0));
   add_trials(trials, "fast", 20, [](std::uint32_t i) {
@@ -155,9 +143,12 @@ TEST_CASE("who is faster but not as safe is named, and not worse", "[ranking]") 
   });
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"safe", "fast"});
-  CHECK(answer.ranking[1].standing == Standing::not_told_apart);
-  CHECK(answer.ranking[1].decided == 2u);
-  CHECK_THAT(answer_lines(answer, {}).front(), Contains("P + fast (1.00 s/m faster)"));
+  for (const RankedCombination& one : answer.ranking) {
+    CHECK(one.standing != Standing::worse);  // 20 tasks do not show that it is not inferior by 5 points
+    CHECK(one.pareto);
+  }
+  CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
+                                   "In safe and time, none is beaten by another in all of: P + safe and P + fast.")));
 }
 
 TEST_CASE("swapped labels swap the answer", "[ranking]") {
@@ -167,52 +158,93 @@ TEST_CASE("swapped labels swap the answer", "[ranking]") {
   const auto lines = lines_of(trials);
   for (TrialRecord& trial : trials) trial.local_controller = trial.local_controller == "A" ? "B" : "A";
   const auto swapped = lines_of(trials);
-  CHECK_THAT(lines[0], Contains("Best: P + A"));
-  CHECK_THAT(lines[1], Contains("Worse: P + B (safe 0.50 lower"));
-  CHECK_THAT(swapped[0], Contains("Best: P + B"));
-  CHECK_THAT(swapped[1], Contains("Worse: P + A (safe 0.50 lower"));
+  CHECK_THAT(lines[0], Contains("P + A is the best"));
+  CHECK_THAT(lines[1], Contains("Not the best: P + B (safe 0.50 lower)"));
+  CHECK_THAT(swapped[0], Contains("P + B is the best"));
+  CHECK_THAT(swapped[1], Contains("Not the best: P + A (safe 0.50 lower)"));
   CHECK_THAT(lines[2], Contains("Of the 40 robots of P + B, 20 did not arrive safely: 20 after a contact at fault."));
   CHECK_THAT(swapped[2], Contains("Of the 40 robots of P + A, 20"));
 }
 
-TEST_CASE("with one task the crowd seeds count, from five on the tasks", "[ranking]") {
+TEST_CASE("tasks are the observations, not the crowds that meet them", "[ranking]") {
   std::vector<TrialRecord> trials;
-  SECTION("one task") {
-    add_trials(trials, "a", 8, with_pace(2.0));
-    add_trials(trials, "b", 8, with_pace(2.5));
-    const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "On this task, over 8 crowd seeds");
-    CHECK(answer.ranking[1].against[2].observations == 8);
-  }
+  add_trials(trials, "a", 20, with_pace(2.0));
+  add_trials(trials, "b", 20, with_pace(2.5));
   SECTION("a task each") {
-    add_trials(trials, "a", 8, with_pace(2.0, true));
-    add_trials(trials, "b", 8, with_pace(2.5, true));
-    const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "In general, over 8 tasks");
-    CHECK(answer.ranking[1].standing == Standing::worse);
+    CHECK(answer_heading(answer_of(trials)) == "In this world, over 20 tasks");
+    CHECK(answer_of(trials).ranking[1].standing == Standing::worse);
   }
-  SECTION("several crowds on each of five tasks are five observations") {
-    const auto on_five_tasks = [](double pace) {
-      return [=](std::uint32_t i) { return with_pace(pace, true)(i % 5); };
-    };
-    add_trials(trials, "a", 20, on_five_tasks(2.0));
-    add_trials(trials, "b", 20, on_five_tasks(2.5));
+  SECTION("five tasks under four seeds each are five observations") {
+    for (TrialRecord& trial : trials) trial.task = std::to_string(trial.repetition % 5);
     const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "In general, over 5 tasks");
-    CHECK(answer.ranking[1].against[2].observations == 5);
-    CHECK(answer.ranking[1].standing == Standing::not_told_apart);  // 2^-4
+    CHECK(answer_heading(answer) == "In this world, over 5 tasks");
+    CHECK(answer.ranking[1].against[1].over_tasks.n == 5);
+    CHECK(answer.ranking[1].standing == Standing::may_be_best);  // 2^-4
   }
-  SECTION("neither tasks nor ways are known") {
-    add_trials(trials, "a", 8, with_pace(2.0));
-    add_trials(trials, "b", 8, with_pace(2.5));
+  SECTION("a world is one task where its tasks are not known") {
     for (TrialRecord& trial : trials) {
       trial.task.clear();
       std::erase_if(trial.values, [](const MetricValue& value) { return value.metric == "way"; });
     }
     const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "Under these 8 crowd seeds");
-    CHECK(answer.criteria.size() == 2);  // no time without them
+    CHECK(answer_heading(answer) == "In this world, over 1 task");
+    CHECK(answer.criteria.size() == 1);  // no time without ways
   }
+  SECTION("a trial that ended in a fault has the task of its seed") {
+    trials[3].task.clear();
+    CHECK(answer_of(trials).tasks == 20);
+  }
+  SECTION("numbers of robots that share a seed are parts of its task") {
+    for (std::size_t i = 0; i < 40; ++i) {
+      trials.push_back(trials[i]);
+      trials.back().robots = 1;
+      trials.back().task = "alone " + std::to_string(trials[i].repetition);
+    }
+    const auto found = answers_of(trials);
+    REQUIRE(found.size() == 3);
+    CHECK(found.front().tasks == 20);
+  }
+}
+
+TEST_CASE("five worlds allow a statement in general, with each as one observation", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 40, with_pace(2.0));
+  add_trials(trials, "b", 40, with_pace(2.5));
+  for (const std::uint32_t worlds : {4u, 8u}) {
+    spread_over_worlds(trials, worlds);
+    const Answer answer = answers_of(trials).front();
+    CHECK(answer_heading(answer) == "In these " + std::to_string(worlds) + " worlds, over 40 tasks");
+    CHECK(answer.in_general == (worlds >= 5));
+    const std::vector<std::string> lines = answer_lines(answer, {});
+    CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+            return line == "In general, with each of 8 worlds as one observation, it is among P + a.";
+          }) == (worlds == 8));
+  }
+}
+
+TEST_CASE("people who lose time count before the robots' time", "[ranking]") {
+  // the same crowd without robots walks 1 m a second; with a in the way it loses 4 m of 40, with b none
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 20, with_pace(2.0));
+  add_trials(trials, "b", 20, with_pace(3.0));
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    TrialRecord& alone = trials.emplace_back(ranking_trial("", "", i, both_arrive));
+    alone.robots = 0;
+    alone.values = {{"desired", DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, 1.0}};
+  }
+  for (TrialRecord& trial : trials)
+    for (int t = 0; t <= 40; ++t)
+      trial.values.push_back({"progress", DMRP_SUBJECT_SYSTEM, std::nullopt, t,
+                              (trial.local_controller == "a" ? 0.9 - 0.001 * (trial.repetition % 3) : 1.0) * t});
+  const Answer answer = answer_of(trials);
+  REQUIRE(answer.criteria.size() == 3);
+  CHECK(answer.criteria[1].name == "people's delay");
+  CHECK(order_of(answer) == Names{"b", "a"});
+  CHECK(answer.ranking[1].standing == Standing::worse);
+  CHECK(answer.ranking[1].decided == 1u);
+  CHECK(answer.ranking[1].means[1] == Approx(4.0).margin(0.1));
+  CHECK_THAT(lines_of(trials),
+             Catch::VectorContains(std::string("Not the best: P + a (people's delay 4.04 s higher).")));
 }
 
 TEST_CASE("several scenarios have an answer each, and one together", "[ranking]") {
@@ -227,8 +259,8 @@ TEST_CASE("several scenarios have an answer each, and one together", "[ranking]"
   trials.insert(trials.end(), office.begin(), office.end());
   const auto found = answers_of(trials);
   REQUIRE(found.size() == 3);
-  CHECK(answer_heading(found[0]) == "On these 2 tasks, over 20 crowd seeds");
-  CHECK(found[0].ranking[1].standing == Standing::not_told_apart);
+  CHECK(answer_heading(found[0]) == "In these 2 worlds, over 20 tasks");
+  CHECK(found[0].ranking[1].standing == Standing::may_be_best);
   CHECK(order_of(found[1]) == Names{"a", "b"});
   CHECK(order_of(found[2]) == Names{"b", "a"});
 
@@ -239,6 +271,23 @@ TEST_CASE("several scenarios have an answer each, and one together", "[ranking]"
     CHECK(answers_of(trials)[0].ranking.size() == 2);
     CHECK(answers_of(trials)[1].ranking.size() == 3);
   }
+}
+
+TEST_CASE("the answer says where it depends on the people", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 20, always(both_arrive));
+  add_trials(trials, "b", 20, always(one_fails));
+  const std::size_t count = trials.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    trials.push_back(trials[i]);
+    trials.back().pedestrian_model = "blind crowd";
+  }
+  for (const std::string& line : lines_of_first(trials)) CHECK_THAT(line, !Contains("people"));
+  for (std::size_t i = count; i < trials.size(); ++i)
+    trials[i].local_controller = trials[i].local_controller == "a" ? "b" : "a";
+  CHECK_THAT(lines_of_first(trials),
+             Catch::VectorContains(std::string(
+                 "It depends on the people: with blind crowd it is among P + b; with crowd it is among P + a.")));
 }
 
 TEST_CASE("a trial that ended in a fault counts as a failure", "[ranking]") {
@@ -267,8 +316,8 @@ TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
   std::vector<TrialRecord> trials;
   for (const char* people : {"6", "12"}) {
     const std::size_t first = trials.size();
-    add_trials(trials, "fast", 6, with_pace(2.0, true));
-    add_trials(trials, "slow", 6, with_pace(3.0, true));
+    add_trials(trials, "fast", 6, with_pace(2.0));
+    add_trials(trials, "slow", 6, with_pace(3.0));
     for (std::size_t i = first; i < trials.size(); ++i) {
       trials[i].swept = {{"", "people", people}};
       trials[i].scenario = with_swept(trials[i].scenario, trials[i].swept);
@@ -322,28 +371,17 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
   }
 }
 
-TEST_CASE("the answer says whether the tasks can tell combinations apart", "[ranking]") {
-  // of two robots so many arrive, each on a task of the repetition's own
-  const auto arriving = [](std::uint32_t robots) {
-    return [=](std::uint32_t i) {
-      const double way_m = 10.0 + i;
-      const std::optional<double> time_s = 2.0 * way_m;
-      return std::vector<RobotResult>{{robots > 0 ? time_s : std::nullopt, true, way_m},
-                                      {robots > 1 ? time_s : std::nullopt, true, way_m}};
-    };
-  };
-  const auto line_of = [&](const std::vector<std::uint32_t>& arrivals, std::uint32_t tasks) -> std::string {
+TEST_CASE("the answer says where tasks leave no room for differences", "[ranking]") {
+  const auto line_of = [&](const std::vector<RobotResult>& robots, std::uint32_t tasks) -> std::string {
     std::vector<TrialRecord> trials;
-    for (const std::uint32_t robots : arrivals)
-      add_trials(trials, std::to_string(trials.size()), tasks, arriving(robots));
+    for (const char* name : {"a", "b"}) add_trials(trials, name, tasks, always(robots));
     for (const std::string& line : lines_of(trials))
       if (line.starts_with("The tasks ")) return line;
     return "";
   };
-  CHECK(line_of({2, 1, 1}, 12) == "The tasks tell 2 of 3 pairs of combinations apart.");
-  CHECK(line_of({1, 1, 1}, 12) == "The tasks tell 0 of 3 pairs of combinations apart.");
-  CHECK(line_of({1, 1}, 12).empty());  // of two combinations, the line about the first tells
-  CHECK(line_of({2, 2}, 12) == "The tasks are too easy to tell combinations apart by safe: its mean is 1.00.");
-  CHECK(line_of({0, 0}, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
-  CHECK(line_of({2, 1}, 9).empty());
+  const std::vector<RobotResult> none_arrives(2, {std::nullopt, true, 10.0});
+  CHECK(line_of(one_fails, 12).empty());
+  CHECK(line_of(both_arrive, 12) == "The tasks are too easy to tell combinations apart by safe: its mean is 1.00.");
+  CHECK(line_of(none_arrives, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
+  CHECK(line_of(none_arrives, 9).empty());
 }

@@ -57,7 +57,7 @@ TEST_CASE("the best is marked where it can be told apart from all others", "[ran
   }
 }
 
-TEST_CASE("five seeds are too few to mark anything", "[ranking]") {
+TEST_CASE("five tasks are too few to mark anything", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_lengths(trials, "short", 20.0, 0.5);
   add_lengths(trials, "long", 30.0, 0.2);

@@ -55,6 +55,29 @@ TEST_CASE("the robots that others wait for are counted once a trial and cause", 
   CHECK(failures_line(failures) == "10 did not arrive: 8 held behind another robot (roots: 4), 2 deadlock");
 }
 
+TEST_CASE("robots that arrive after standstills which run on are counted", "[ranking]") {
+  SummaryLayout layout = ranking_layout();
+  layout.after_standstill = "after_standstill";
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 3, [](std::uint32_t) { return std::vector<RobotResult>(2); });
+  CHECK(standstills_line(layout, trials).empty());
+  const auto add_value = [&](std::size_t trial, std::uint64_t robot, double value) {
+    MetricValue one = trials[trial].values.front();
+    one.metric = layout.after_standstill;
+    one.subject_kind = DMRP_SUBJECT_ROBOT;
+    one.subject = robot;
+    one.value = value;
+    trials[trial].values.push_back(one);
+  };
+  add_value(1, 1, 0.0);
+  CHECK(standstills_line(layout, trials) ==
+        "Of 1 robot at standstills that ran on to the time limit, 0 arrived after all");
+  add_value(0, 0, 1.0);
+  add_value(0, 1, 0.0);
+  CHECK(standstills_line(layout, trials) ==
+        "Of 3 robots at standstills that ran on to the time limit, 1 arrived after all");
+}
+
 TEST_CASE("there is nothing to say where all arrived", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "a", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}}; });

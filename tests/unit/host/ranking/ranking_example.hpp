@@ -24,7 +24,9 @@ inline std::vector<host::MetricColumn> ranking_metrics() {
 inline host::SummaryLayout ranking_layout() {
   return host::parse_summary_layout(R"({"arrived": "done", "counts_failures": ["safe", "untouched_done", "done"],
       "of_plans": ["planned", "plan_ms"],
-      "answer": {"shares": ["safe", "done"], "siblings": ["untouched_done", "excused_done"], "time": "time", "way_length": "way"}})",
+      "answer": {"shares": ["safe"], "siblings": ["untouched_done", "excused_done"],
+      "people_progress": "progress", "people_speed": "desired",
+      "time": "time", "way_length": "way"}})",
                                     "layout");
 }
 
@@ -37,7 +39,7 @@ struct RobotResult {
   bool excused = false;  // though unsafe
 };
 
-// A trial of two robots in the mall.
+// A trial of two robots in the mall, on a task of the repetition's own.
 inline host::TrialRecord ranking_trial(const std::string& planner, const std::string& controller,
                                        std::uint32_t repetition, const std::vector<RobotResult>& robots,
                                        double length_m = 30.0, double planned_m = 25.0) {
@@ -49,13 +51,13 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   trial.pedestrian_model = "crowd";
   trial.repetition = repetition;
   trial.seed = 1000 + repetition;
+  trial.task = "task " + std::to_string(repetition);
   double done = 0.0;
   double safe = 0.0;
   double untouched = 0.0;
   double excused = 0.0;
   for (std::uint64_t i = 0; i < robots.size(); ++i) {
     const RobotResult& robot = robots[i];
-    trial.task += std::to_string(robot.way_m) + " ";  // other ways, other tasks
     const bool arrived = robot.time_s.has_value();
     done += arrived ? 1.0 : 0.0;
     safe += arrived && robot.safe ? 1.0 : 0.0;

@@ -52,7 +52,7 @@ inline host::MetricValue system_number(const std::string& metric, std::optional<
   return {metric, DMRP_SUBJECT_SYSTEM, std::nullopt, std::nullopt, value};
 }
 
-// Two robots; the second arrives only where the trial succeeded.
+// Two robots, on a task of the repetition's own; the second arrives only where the trial succeeded.
 inline host::TrialRecord example_trial(std::uint64_t id, const std::string& planner, std::uint32_t repetition,
                                        std::optional<double> time, double speed) {
   host::TrialRecord trial;
@@ -67,6 +67,7 @@ inline host::TrialRecord example_trial(std::uint64_t id, const std::string& plan
   trial.outcome = time ? host::trial_outcome::succeeded : host::trial_outcome::failed;
   trial.sim_time_s = time.value_or(180.0);
   trial.wall_time_s = 0.125;
+  trial.task = "task " + std::to_string(repetition);
   trial.values = {system_number("done", time ? 1.0 : 0.5),
                   {"done", DMRP_SUBJECT_ROBOT, 0, std::nullopt, 1.0},
                   {"done", DMRP_SUBJECT_ROBOT, 1, std::nullopt, time ? 1.0 : 0.0},

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
 using namespace dmrp::host;
@@ -79,9 +79,25 @@ TEST_CASE("a legend explains what is shown", "[terminal]") {
   layout.columns[3].legend = "mean over time";
   layout.columns[2].legend = "of a metric that was not measured";
   const auto metrics = example_metrics();
-  CHECK(table_legend(layout, metrics, {}, {}) == "  speed: mean over time · ±: deviation over time\n");
-  CHECK(table_legend(layout, metrics, two_marks(), {30, false}) ==
-        "  speed: mean over time · ±:\n    deviation over time · *:\n    told apart from all others\n");
+  const auto summaries = summarise(metrics, two_planners(), {});
+  CHECK(table_legend(layout, metrics, summaries, {}, {}) ==
+        "  means over 2 tasks · speed: mean over time · ±: deviation over time\n");
+  CHECK(
+      table_legend(layout, metrics, summaries, two_marks(), {36, false}) ==
+      "  means over 2 tasks · speed: mean\n    over time · ±: deviation over\n    time · *: better than all others\n");
+}
+
+TEST_CASE("shares have their intervals, from two observations on", "[terminal]") {
+  auto layout = example_layout();
+  layout.counts_failures = {"done"};
+  const auto metrics = example_metrics();
+  auto trials = two_planners();
+  const auto table = [&] {
+    return summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), {}, {});
+  };
+  CHECK_THAT(table(), Catch::Contains("CBS + DWA   1.00 [0."));
+  std::erase_if(trials, [](const TrialRecord& trial) { return trial.repetition > 0; });
+  CHECK_THAT(table(), !Catch::Contains("["));
 }
 
 TEST_CASE("rows that can be compared stand together", "[terminal]") {

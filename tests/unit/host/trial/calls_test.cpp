@@ -45,11 +45,37 @@ struct Guarded {
 TEST_CASE("statuses that leave the plugin usable come back with the time that the call took") {
   Guarded guarded;
   for (const std::int32_t status : {DMRP_OK, DMRP_WARNING, DMRP_NO_SOLUTION, DMRP_TIMEOUT}) {
-    const auto result = guarded.call({"test.plugin", "plan", 0, -1}, second_ns, Answers::no_solution_or_timeout,
-                                     [&] { return status; });
+    const auto result = guarded.call({"test.plugin", "plan", 0, -1}, second_ns, Answers::plan, [&] { return status; });
     CHECK(result.status == status);
     CHECK(result.duration_ns >= 0);
   }
+}
+
+TEST_CASE("statuses of later minor versions are read as NO_SOLUTION and ERROR") {
+  Guarded guarded;
+  for (const std::int32_t status : {16, 31})
+    for (const Answers answers : {Answers::no_solution, Answers::plan})
+      CHECK(guarded.call({"test.plugin", "plan", 0, -1}, second_ns, answers, [&] { return status; }).status ==
+            DMRP_NO_SOLUTION);
+  for (const std::int32_t status : {32, 63})
+    CHECK(guarded.fault([&] { return status; }).kind() == std::string(fault_kind::error_status));
+  for (const std::int32_t status : {8, 15, 16, 31, 64, -1})
+    CHECK(guarded.fault([&] { return status; }).kind() == std::string(fault_kind::abi_breach));
+}
+
+TEST_CASE("a plugin that asks how much time it has left gets it, and its results depend on timing") {
+  Guarded guarded;
+  const CallSite site = {"test.plugin", "plan", 0, -1};
+  CHECK(guarded.guard.budget_left_ns(&guarded.host) == 0);  // outside a call
+  std::int64_t left_ns = -1;
+  const auto ask = [&] { return left_ns = guarded.guard.budget_left_ns(&guarded.host), DMRP_OK; };
+  guarded.call(site, 0, Answers::plan, ask);
+  CHECK(left_ns == 0);
+  guarded.guard.reset_timing();
+  guarded.call(site, 3600 * second_ns, Answers::plan, ask);
+  CHECK(left_ns > 0);
+  CHECK(left_ns <= 3600 * second_ns);
+  CHECK(guarded.guard.timing() == std::vector<TimingReason>{{"test.plugin", "plan() asked how much time it has left"}});
 }
 
 TEST_CASE("statuses that end a trial are faults with the plugin's own words") {
@@ -155,7 +181,7 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
 
   SECTION("a goal on the cell's centre only gives the last waypoint its heading") {
     goals[0].pose = {1.5, 0.5, 1.0};
-    const auto path = path_to_drive(planned, goals, 1800);
+    const auto path = path_to_drive(planned, false, goals, 1800);
     REQUIRE(path.size() == 2);
     CHECK(path[1].theta == 1.0);
     CHECK(std::isnan(path[0].theta));
@@ -163,7 +189,7 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
   }
   SECTION("a goal beside it is one leg more") {
     goals[0].pose = {1.7, 0.4, any};
-    const auto path = path_to_drive(planned, goals, 1800);
+    const auto path = path_to_drive(planned, false, goals, 1800);
     REQUIRE(path.size() == 3);
     CHECK(std::memcmp(path.data(), planned.data(), 2 * sizeof(dmrp_waypoint)) == 0);
     CHECK(path[2].x == 1.7);
@@ -171,13 +197,19 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
     CHECK(path[2].t_ns == 3600);
     CHECK(path[2].goal_index == 0);
   }
+  SECTION("a partial path does not lead there yet") {
+    goals[0].pose = {1.7, 0.4, 1.0};
+    const auto path = path_to_drive(planned, true, goals, 1800);
+    REQUIRE(path.size() == 2);
+    CHECK(std::memcmp(path.data(), planned.data(), 2 * sizeof(dmrp_waypoint)) == 0);
+  }
   SECTION("on a tour it is two: there, and back to where the plan goes on") {
     goals.resize(2);
     goals[0].pose = {1.7, 0.4, 1.0};
     goals[1].pose = {2.5, 0.5, 2.0};
     const std::vector<dmrp_waypoint> tour = {
         {0.5, 0.5, any, 0, 0, 0}, {1.5, 0.5, any, 1800, 0, 0}, {2.5, 0.5, any, 3600, 1, 0}};
-    const auto path = path_to_drive(tour, goals, 1800);
+    const auto path = path_to_drive(tour, false, goals, 1800);
     REQUIRE(path.size() == 5);
     CHECK(path[2].x == 1.7);
     CHECK(path[2].y == 0.4);

@@ -67,7 +67,15 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
   std::uint64_t plans_ = 0;
 };
 
-// Drives along its path as far as it is released, and writes a note for each path.
+// The command of a robot that follows a way: a turn to the carrot, and a speed at which it stops in time.
+void drive_to(dmrp::Vec2 carrot, double remaining_m, double speed, const dmrp::Pose& pose, dmrp::Command& command) {
+  const dmrp::Vec2 way = carrot - toolkit::position(pose);
+  const double error = toolkit::difference(pose.theta, std::atan2(way.y, way.x));
+  command.omega = std::copysign(std::min(1.0, std::sqrt(1.2 * std::abs(error))), error);
+  if (std::abs(error) < 0.6) command.v_x = std::min(speed, std::sqrt(remaining_m)) * std::cos(error);
+}
+
+// Drives to the end of its path, and writes a note for each path.
 class Follower final : public dmrp::LocalController {
  public:
   static dmrp::Descriptor describe() {
@@ -91,7 +99,9 @@ class Follower final : public dmrp::LocalController {
   void set_path(dmrp::Path path, std::uint64_t revision) override {
     expect(revision == ++revision_, "the revision grows by one");
     expect(!path.empty() && (!by_waypoint || path.size() == 1), "a path as it is dispatched");
+    if (path.continues()) expect_continued(path);
     path_.assign(path.begin(), path.end());
+    is_partial_ = path.is_partial();
     toolkit::arc_lengths(path_, arcs_);
     const std::string text = std::to_string(path.size()) + " to " + std::to_string(path_.back().x);
     const dmrp_note note = {sizeof(note), robot_, text.c_str()};
@@ -101,17 +111,13 @@ class Follower final : public dmrp::LocalController {
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     check(now);
     if (gives_up && now.pose.y > 2.0 && now.pose.x > 3.2) return dmrp::Status::no_solution;
-    const dmrp::Vec2 position = toolkit::position(now.pose);
-    const double end_m = arcs_[now.released_waypoint];
+    const double end_m = arcs_.back();
     const dmrp::Vec2 carrot = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.35, end_m));
-    const dmrp::Vec2 end = toolkit::position(path_[now.released_waypoint]);
-    const double remaining_m = std::max(end_m - now.progress_m, toolkit::distance(position, end));
+    const dmrp::Vec2 end = toolkit::position(path_.back());
+    const double remaining_m = std::max(end_m - now.progress_m, toolkit::distance(toolkit::position(now.pose), end));
     if (remaining_m < 0.05) return dmrp::Status::ok;
 
-    const dmrp::Vec2 way = carrot - position;
-    const double error = toolkit::difference(now.pose.theta, std::atan2(way.y, way.x));
-    command.omega = std::copysign(std::min(1.0, std::sqrt(1.2 * std::abs(error))), error);
-    if (std::abs(error) < 0.6) command.v_x = std::min(speed_, std::sqrt(remaining_m)) * std::cos(error);
+    drive_to(carrot, remaining_m, speed_, now.pose, command);
     if (rests(now.t_ns)) command = {};
     if (strays && now.t_ns >= 3'000'000'000 && now.t_ns < 5'000'000'000) {
       command.v_x = 0.6;
@@ -121,13 +127,24 @@ class Follower final : public dmrp::LocalController {
   }
 
  private:
+  // It begins as the path before and ends elsewhere.
+  void expect_continued(const dmrp::Path& path) const {
+    expect(path.size() != path_.size(), "a path that continues ends elsewhere");
+    for (std::size_t i = 0; i < std::min(path.size(), path_.size()); ++i)
+      expect(path[i].x == path_[i].x && path[i].y == path_[i].y && path[i].t_ns == path_[i].t_ns &&
+                 path[i].goal_index == path_[i].goal_index,
+             "a path that continues begins as the one before");
+  }
+
   void check(const dmrp::Observation& now) const {
-    expect(now.released_waypoint < path_.size() && now.progress_waypoint <= now.released_waypoint, "waypoints");
+    expect(now.progress_waypoint < path_.size(), "a waypoint of the path");
+    expect(path_.back().goal_index <= now.goal_index, "the path ends at the current goal, or before");
+    const double to_goal_m = toolkit::distance(toolkit::position(now.goal.pose), toolkit::position(path_.back()));
+    expect(is_partial_ || to_goal_m < 1e-9, "a path that is not partial ends at the current goal");
     if (!by_waypoint) return;
     expect(now.progress_m == 0.0, "no progress on a single waypoint");
-    expect(toolkit::distance(toolkit::position(now.goal.pose), toolkit::position(path_[0])) < 1e-9,
-           "the waypoint is the goal");
-    expect(now.goal.tolerance_m == 0.2 && path_[0].goal_index <= now.goal_index, "with the current goal's tolerances");
+    expect(!is_partial_, "the waypoint is the goal");
+    expect(now.goal.tolerance_m == 0.2, "with the current goal's tolerances");
   }
 
   bool rests(std::int64_t t_ns) {
@@ -145,8 +162,36 @@ class Follower final : public dmrp::LocalController {
   std::uint64_t revision_ = 0;
   std::vector<dmrp::Waypoint> path_;
   std::vector<double> arcs_;
+  bool is_partial_ = false;
+};
+
+// Follows its path to the end and stops there. It knows of nothing but its path and its pose.
+class Naive final : public dmrp::LocalController {
+ public:
+  static dmrp::Descriptor describe() { return dmrp::Descriptor("test.controller.naive", "Naive", "1.0.0"); }
+
+  void set_path(dmrp::Path path, std::uint64_t) override {
+    if (!path.continues()) arc_m_ = 0.0;
+    path_.assign(path.begin(), path.end());
+    toolkit::arc_lengths(path_, arcs_);
+  }
+
+  dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
+    const dmrp::Vec2 here = toolkit::position(now.pose);
+    arc_m_ = toolkit::project(path_, arcs_, here, arc_m_, arc_m_ + 0.5).arc_m;
+    const double remaining_m =
+        std::max(arcs_.back() - arc_m_, toolkit::distance(here, toolkit::position(path_.back())));
+    if (remaining_m < 0.05) return dmrp::Status::ok;
+    drive_to(toolkit::point_at(path_, arcs_, arc_m_ + 0.35), remaining_m, 0.6, now.pose, command);
+    return dmrp::Status::ok;
+  }
+
+ private:
+  std::vector<dmrp::Waypoint> path_;
+  std::vector<double> arcs_;
+  double arc_m_ = 0.0;  // of the position reached
 };
 
 }  // namespace
 
-DMRP_PLUGINS(AgainPlanner, Follower)
+DMRP_PLUGINS(AgainPlanner, Follower, Naive)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/cpp/path.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
@@ -15,6 +16,7 @@
 
 #include "core/trace/trace_reader.hpp"
 #include "host/trial/run_trial.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
 using namespace dmrp::host;
@@ -386,6 +388,39 @@ std::vector<std::vector<Passage>> passages(core::TraceReader& trace) {
   return of_cell;
 }
 
+template <class Use>
+void for_each_route(core::TraceReader& trace, Use&& use) {
+  trace.rewind();
+  while (const dmrp_sample* sample = trace.next_sample())
+    for (std::uint32_t i = 0; i < sample->route_count; ++i)
+      use(*DMRP_AT(dmrp_route, sample->routes, sample->route_stride, i), sample->t_ns);
+}
+
+std::uint32_t robot_contacts(core::TraceReader& trace) {
+  std::uint32_t contacts = 0;
+  trace.rewind();
+  while (const dmrp_sample* sample = trace.next_sample())
+    for (std::uint32_t i = 0; i < sample->contact_count; ++i)
+      contacts += DMRP_AT(dmrp_contact, sample->contacts, sample->contact_stride, i)->kind == DMRP_CONTACT_ROBOT;
+  return contacts;
+}
+
+bool ends_at_goal(const dmrp::Path& path, const core::TraceReader& trace, std::uint32_t robot) {
+  const dmrp_robot& body = *DMRP_AT(dmrp_robot, trace.world().robots, trace.world().robot_stride, robot);
+  const dmrp_goal& last = *DMRP_AT(dmrp_goal, body.goals, body.goal_stride, body.goal_count - 1);
+  return toolkit::position(path[path.size() - 1]) == toolkit::position(last.pose);
+}
+
+// Whether every other robot that passes a cell of the path before this one has left it by then.
+bool is_clear(const dmrp::Path& path, std::uint32_t robot, std::int64_t t_ns,
+              const std::vector<std::vector<Passage>>& of_cell, const core::TraceReader& trace) {
+  const toolkit::GridView grid(*trace.world().planning_grid);
+  for (const dmrp::Waypoint& waypoint : path)
+    for (const Passage& passage : of_cell[grid.index_of(toolkit::position(waypoint))])
+      if (passage.robot != robot && passage.planned_ns < waypoint.t_ns && passage.leaves_ns > t_ns) return false;
+  return true;
+}
+
 // The number of pairs of robots that visit a cell in another order than planned.
 std::size_t out_of_order(core::TraceReader& trace, std::size_t& pairs) {
   std::size_t wrong = 0;
@@ -423,6 +458,76 @@ TEST_CASE("execution in order: robots that dawdle pass shared cells as planned, 
   }
   CHECK(pairs > 20 * seeds);
   CHECK(out_of_order_when_free > 0);  // free execution does not keep the order
+}
+
+TEST_CASE("in order, paths end before cells that others have still to leave") {
+  std::size_t partial = 0, whole = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    Stage stage(crowded_hall(seed));
+    stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+    stage.experiment.global_planners = {stage.use("dmrp.planner.ecbs")};
+    stage.experiment.simulation.execution = core::Execution::ordered;
+    Stage::set(stage.experiment.local_controllers[0], "dawdles");
+    INFO("seed " << seed);
+    REQUIRE(stage.run(seed));
+    const auto of_cell = passages(*stage.reader);
+    struct Handed {
+      std::size_t waypoints = 0;
+      bool is_whole = false;
+    };
+    std::vector<Handed> handed(20);
+    for_each_route(*stage.reader, [&](const dmrp_route& route, std::int64_t t_ns) {
+      const dmrp::Path path(*route.path, route.flags);
+      Handed& before = handed[route.robot];
+      CHECK(path.continues() == (before.waypoints > 0));
+      CHECK((path.size() > before.waypoints && !before.is_whole));  // there was more to come
+      before = {path.size(), !path.is_partial()};
+      CHECK(is_clear(path, route.robot, t_ns, of_cell, *stage.reader));
+      if (!path.is_partial()) CHECK(ends_at_goal(path, *stage.reader, route.robot));
+      ++(path.is_partial() ? partial : whole);
+    });
+  }
+  CHECK(partial > 100);
+  CHECK(whole == 5 * 20);
+}
+
+TEST_CASE("on a tour paths end at each goal, and the next one continues") {
+  Stage stage(lanes({4.5}));
+  stage.experiment.scenarios[0].scenario.robots[0].goals.push_back({8.5, 1.5, any_heading});
+  stage.experiment.scenarios[0].scenario.robots[0].goals.push_back({6.5, 1.5, any_heading});
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.cbs")};
+  stage.experiment.simulation.execution = GENERATE(core::Execution::free, core::Execution::ordered);
+  CHECK(stage.run());
+  std::vector<double> ends;
+  for_each_route(*stage.reader, [&](const dmrp_route& route, std::int64_t) {
+    const dmrp::Path path(*route.path, route.flags);
+    CHECK(path.continues() == !ends.empty());
+    CHECK_FALSE(path.is_partial());
+    CHECK(path[path.size() - 1].goal_index == ends.size());
+    ends.push_back(path[path.size() - 1].x);
+  });
+  CHECK(ends == std::vector<double>{4.5, 8.5, 6.5});
+}
+
+TEST_CASE("in order, robots that know their paths and poses alone never touch") {
+  const std::uint64_t seeds = test::draws(100);
+  std::uint32_t contacts_when_free = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Stage stage(crowded_hall(seed));
+    stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+    stage.experiment.global_planners = {stage.use("dmrp.planner.ecbs")};
+    stage.experiment.local_controllers = {stage.use("test.controller.naive")};
+    stage.experiment.simulation.execution = core::Execution::ordered;
+    INFO("seed " << seed);
+    CHECK(stage.run(seed));
+    CHECK(robot_contacts(*stage.reader) == 0);
+    if (seed >= 5) continue;
+    stage.experiment.simulation.execution = core::Execution::free;
+    stage.run(seed);
+    contacts_when_free += robot_contacts(*stage.reader);
+  }
+  CHECK(contacts_when_free > 0);
 }
 
 TEST_CASE("in order, plans that push robots out of their cells and back are driven to their ends") {

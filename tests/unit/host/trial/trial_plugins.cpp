@@ -32,7 +32,8 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
         .uses(DMRP_EXT_ANNOTATE)
         .uses(DMRP_EXT_LIDAR);
   }
-  dmrp::Param<std::string> does = param("does", "plan").doc("plan, half, nothing, timeout, late, wait, sleep or fatal");
+  dmrp::Param<std::string> does =
+      param("does", "plan").doc("plan, half, nothing, unsupported, timeout, late, wait, sleep or fatal");
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     expect(problem.revision == 1 && problem.in_force.empty(), "the first plan");
@@ -42,6 +43,7 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
     annotate->note(annotate, &note);
     if (*does == "fatal") return set_error("the library is lost"), dmrp::Status::fatal;
     if (*does == "nothing") return dmrp::Status::no_solution;
+    if (*does == "unsupported") return set_error("robots that cannot turn"), dmrp::Status::unsupported;
     if (*does == "timeout") return dmrp::Status::timeout;
     while (*does == "wait" && !should_stop()) {
     }
@@ -94,6 +96,7 @@ class CarefulController final : public dmrp::LocalController {
 
   void set_path(dmrp::Path path, std::uint64_t revision) override {
     expect(revision == 1 && !path.empty() && last_t_ns_ < 0, "one path, before the first step");
+    expect(!path.is_partial() && !path.continues(), "the whole way, and the first of it");
     path_.assign(path.begin(), path.end());
     const dmrp::Robot& robot = world().robots()[robot_];
     expect(path_.back().x == robot.goals->pose.x && path_.back().y == robot.goals->pose.y, "the path ends at the goal");
@@ -107,7 +110,6 @@ class CarefulController final : public dmrp::LocalController {
     expect(now.dt_ns == world()->control_period_ns, "dt");
     expect(now.progress_m >= progress_m_, "progress never falls");
     progress_m_ = now.progress_m;
-    expect(now.released_waypoint + 1 == path_.size(), "all of the path is released");
     expect(now.progress_waypoint < path_.size(), "progress on the path");
     for (const dmrp::Agent& agent : now.agents)
       expect(agent.kind != DMRP_AGENT_ROBOT || agent.id != now.robot, "nobody sees itself");

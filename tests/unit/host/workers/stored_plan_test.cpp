@@ -70,8 +70,8 @@ TEST_CASE("a stored plan keeps the planner's call and statistics, or its fault")
   const StoredPlans plans(folder / "run");
   CHECK(plans.names().empty());
   StoredPlan made;
-  made.answer = {DMRP_TIMEOUT, 12,      34,
-                 "",           example, {{"cost", 0.1}, {"bound", std::numeric_limits<double>::infinity()}}};
+  made.answer = {
+      DMRP_TIMEOUT, 12, 34, "", example, {}, {{"cost", 0.1}, {"bound", std::numeric_limits<double>::infinity()}}};
   made.timing = {{"org.x", "plan() was stopped by its time budget"}};
   std::filesystem::create_directories(plans.csv_file("one").parent_path());
   write(plans.csv_file("one"), plan_csv(example));

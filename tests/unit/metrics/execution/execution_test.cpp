@@ -151,13 +151,23 @@ TEST_CASE("compute time comes from the recorded calls") {
   CHECK_THAT(m.system("control_missed"), WithinAbs(100.0 * 100 / 202, 1e-12));
 }
 
+TEST_CASE("calls of a controller of all robots count for the system alone") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  trial.sample(0.0, {at(0, 0), at(0, 0)}).calls({call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, 4.0)});
+  trial.end(1.0, {never, never});
+  const Measurement m = measure("dmrp.metric.compute_time", trial);
+  CHECK(m.system("control_call_mean") == 4.0);
+  CHECK(std::isnan(m.robot("control_call_mean", 0)));
+}
+
 TEST_CASE("clipped commands are counted by robot") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   for (int i = 0; i < 10; ++i) {
-    std::vector<dmrp_call> calls = {call(DMRP_CALL_CONTROL, 0, 1.0), call(DMRP_CALL_CONTROL, 1, 1.0)};
-    if (i % 3 == 0) calls.push_back({DMRP_CALL_CLIPPED, 1, DMRP_OK, 0, 0});
-    trial.sample(i, {at(0, 0), at(0, 0)}).calls(calls);
+    std::vector<dmrp_robot_event> events = {becomes(0, DMRP_CLASS_STUCK), {99, 1, 0, 0, DMRP_NOBODY}};
+    if (i % 3 == 0) events.push_back({DMRP_ROBOT_EVENT_CLIPPED, 1, 0, 0, DMRP_NOBODY});
+    trial.sample(i, {at(0, 0), at(0, 0)}).events(events);
   }
   trial.end(10.0, {never, never});
   const Measurement m = measure("dmrp.metric.clipped_commands", trial);
@@ -167,18 +177,18 @@ TEST_CASE("clipped commands are counted by robot") {
 }
 
 TEST_CASE("recoveries are counted by robot, and each is an event with its steps") {
-  const auto recovery = [](std::uint32_t robot, std::int32_t step) {
-    return dmrp_call{DMRP_CALL_RECOVERY, robot, step, 0, 0};
+  const auto recovery = [](std::uint32_t robot, std::uint32_t step) {
+    return dmrp_robot_event{DMRP_ROBOT_EVENT_RECOVERY, robot, 0, step, DMRP_NOBODY};
   };
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   for (int i = 0; i <= 20; ++i) {
-    std::vector<dmrp_call> calls = {call(DMRP_CALL_CONTROL, 0, 1.0)};
-    if (i == 4) calls.push_back(recovery(1, DMRP_RECOVERY_SPIN));
-    if (i == 6) calls.push_back(recovery(1, DMRP_RECOVERY_WAIT));
-    if (i == 9) calls.push_back(recovery(1, DMRP_RECOVERY_NONE));
-    if (i == 19) calls.push_back(recovery(1, 77));  // of a later host
-    trial.sample(i, {at(0, 0), at(2, 1)}).calls(calls);
+    std::vector<dmrp_robot_event> events = {becomes(0, DMRP_CLASS_SETTLING)};
+    if (i == 4) events.push_back(recovery(1, DMRP_RECOVERY_SPIN));
+    if (i == 6) events.push_back(recovery(1, DMRP_RECOVERY_WAIT));
+    if (i == 9) events.push_back(recovery(1, DMRP_RECOVERY_NONE));
+    if (i == 19) events.push_back(recovery(1, 77));  // of a later host
+    trial.sample(i, {at(0, 0), at(2, 1)}).events(events);
   }
   trial.end(20.0, {never, never});
   const Measurement m = measure("dmrp.metric.recoveries", trial);

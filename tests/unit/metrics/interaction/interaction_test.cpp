@@ -33,15 +33,15 @@ SyntheticTrial standing(const std::vector<dmrp_vec2>& places, const std::vector<
 TEST_CASE("the time without progress is told by its cause") {
   SyntheticTrial trial(1);
   trial.plan({{{0, 0}, {9, 0}}});
-  trial.sample(0.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_MOVING)});
-  trial.sample(20.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_HELD, 3)});         // from 0 s on
-  trial.sample(23.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_BLOCKED_PERSON)});  // from 20 s on
-  trial.sample(27.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 3)});
+  trial.sample(0.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_MOVING)});
+  trial.sample(20.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_HELD, 3)});         // from 0 s on
+  trial.sample(23.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_BLOCKED_PERSON)});  // from 20 s on
+  trial.sample(27.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 3)});
   trial.sample(28.0, {at(0, 0)});
-  trial.sample(34.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_STUCK | DMRP_CLASS_CIRCLING)});
-  trial.sample(35.0, {at(0, 0)}).calls({becomes(0, DMRP_CLASS_SETTLING)});
+  trial.sample(34.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_STUCK | DMRP_CLASS_CIRCLING)});
+  trial.sample(35.0, {at(0, 0)}).events({becomes(0, DMRP_CLASS_SETTLING)});
   trial.sample(36.0, {at(0, 0, 0.0, parked)});  // the step of the arrival is active
-  trial.sample(40.0, {at(0, 0, 0.0, parked)}).calls({becomes(0, DMRP_CLASS_STUCK)});
+  trial.sample(40.0, {at(0, 0, 0.0, parked)}).events({becomes(0, DMRP_CLASS_STUCK)});
   trial.end(40.0, {36.0});
   const Measurement m = measure("dmrp.metric.blocked_time", trial);
   CHECK(m.robot("held_time", 0) == 20.0);
@@ -69,7 +69,7 @@ TEST_CASE("two robots that block each other are in deadlock") {
   const auto stand = [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; };
   const std::uint32_t of_first = GENERATE(DMRP_CLASS_BLOCKED_ROBOT, DMRP_CLASS_HELD);
   fill(trial, 0.0, 1.5, stand);
-  trial.sample(2.0, stand(2.0)).calls({becomes(0, of_first, 1), becomes(1, DMRP_CLASS_BLOCKED_ROBOT, 0)});
+  trial.sample(2.0, stand(2.0)).events({becomes(0, of_first, 1), becomes(1, DMRP_CLASS_BLOCKED_ROBOT, 0)});
   fill(trial, 2.5, 12.0, stand);
   trial.end(12.0, {never, never});
   const Measurement m = measure("dmrp.metric.deadlock", trial);
@@ -91,8 +91,8 @@ TEST_CASE("three robots form a deadlock, without a fourth one that waits for the
   SyntheticTrial trial = standing({{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {{1, 0}, {1, 0}, {1, 0}, {1, 0}});
   const auto stand = [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(1, 0), at(2, 0), at(3, 0)}; };
   trial.sample(0.0, stand(0.0))
-      .calls({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, DMRP_CLASS_BLOCKED_ROBOT, 2),
-              becomes(2, DMRP_CLASS_HELD, 0), becomes(3, DMRP_CLASS_HELD, 0)});
+      .events({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, DMRP_CLASS_BLOCKED_ROBOT, 2),
+               becomes(2, DMRP_CLASS_HELD, 0), becomes(3, DMRP_CLASS_HELD, 0)});
   fill(trial, 0.5, 10.0, stand);
   trial.end(10.0, {never, never, never, never});
   const Measurement m = measure("dmrp.metric.deadlock", trial);
@@ -108,7 +108,7 @@ TEST_CASE("no deadlock: one-sided waiting, a parked robot, a robot that is stuck
   const std::uint32_t state = of_second == DMRP_CLASS_BLOCKED_ROBOT ? parked : DMRP_ROBOT_ACTIVE;
   SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
   const auto stand = [&](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0, 0.0, state)}; };
-  trial.sample(0.0, stand(0.0)).calls({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, of_second, 0)});
+  trial.sample(0.0, stand(0.0)).events({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, of_second, 0)});
   fill(trial, 0.5, 20.0, stand);
   trial.end(20.0, {never, never});
   CHECK(measure("dmrp.metric.deadlock", trial).system("deadlocks") == 0.0);
@@ -117,11 +117,11 @@ TEST_CASE("no deadlock: one-sided waiting, a parked robot, a robot that is stuck
 TEST_CASE("a deadlock that dissolves and returns counts twice") {
   SyntheticTrial trial = standing({{0, 0}, {0.7, 0}}, {{1, 0}, {-1, 0}});
   const auto stand = [](double) -> std::vector<dmrp_robot_sample> { return {at(0, 0), at(0.7, 0)}; };
-  trial.sample(0.0, stand(0.0)).calls({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, DMRP_CLASS_HELD, 0)});
+  trial.sample(0.0, stand(0.0)).events({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1), becomes(1, DMRP_CLASS_HELD, 0)});
   fill(trial, 0.5, 13.5, stand);
-  trial.sample(14.0, stand(14.0)).calls({becomes(0, DMRP_CLASS_MOVING)});
+  trial.sample(14.0, stand(14.0)).events({becomes(0, DMRP_CLASS_MOVING)});
   fill(trial, 14.5, 15.5, stand);
-  trial.sample(16.0, stand(16.0)).calls({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1)});
+  trial.sample(16.0, stand(16.0)).events({becomes(0, DMRP_CLASS_BLOCKED_ROBOT, 1)});
   fill(trial, 16.5, 30.0, stand);
   trial.end(30.0, {never, never});
   const Measurement m = measure("dmrp.metric.deadlock", trial);
@@ -174,11 +174,11 @@ TEST_CASE("a robot that stands though nobody is in its way is counted") {
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}, {9, 0}}, {{0, 50}, {9, 50}}});
   const std::vector<dmrp_robot_sample> robots = {at(0, 0), at(5, 50)};
-  trial.sample(0.0, robots).calls({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_STUCK | DMRP_CLASS_CIRCLING)});
-  trial.sample(1.0, robots).calls({becomes(0, DMRP_CLASS_STUCK)});
+  trial.sample(0.0, robots).events({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_STUCK | DMRP_CLASS_CIRCLING)});
+  trial.sample(1.0, robots).events({becomes(0, DMRP_CLASS_STUCK)});
   trial.sample(until_s, robots);
-  trial.sample(until_s + 1.0, robots).calls({becomes(0, DMRP_CLASS_BLOCKED_PERSON)});
-  trial.sample(until_s + 2.0, robots).calls({becomes(0, DMRP_CLASS_STUCK)});
+  trial.sample(until_s + 1.0, robots).events({becomes(0, DMRP_CLASS_BLOCKED_PERSON)});
+  trial.sample(until_s + 2.0, robots).events({becomes(0, DMRP_CLASS_STUCK)});
   trial.sample(until_s + 3.0, robots);
   trial.end(until_s + 3.0, {never, never});
   const Measurement m = measure("dmrp.metric.open_standstill", trial);

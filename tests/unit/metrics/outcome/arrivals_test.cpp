@@ -142,10 +142,28 @@ TEST_CASE("success_at counts the robots that succeed within multiples of their l
   CHECK(m.curves.at("success_at") == std::map<double, double>{{1.5, 0.25}, {2.0, 0.75}, {3.0, 0.75}});
 }
 
+TEST_CASE("after a standstill that runs on, it counts which of its robots arrive") {
+  SyntheticTrial trial(3);
+  trial.plan(std::vector<Points>(3, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(3, at(0, 0)));
+  const bool runs_on = GENERATE(true, false);
+  if (runs_on)
+    trial.events({{DMRP_ROBOT_EVENT_RUNS_ON, 0, 0, 0, DMRP_NOBODY}, {DMRP_ROBOT_EVENT_RUNS_ON, 2, 0, 0, DMRP_NOBODY}});
+  trial.end(40.0, {never, 10.0, 35.0});
+  const Measurement m = measure("dmrp.metric.first_cause", trial);
+  CHECK(std::isnan(m.robot("after_standstill", 1)));
+  if (!runs_on) {
+    CHECK(std::isnan(m.system("after_standstill")));
+    return;
+  }
+  CHECK(m.robot("after_standstill", 0) == 0.0);
+  CHECK(m.robot("after_standstill", 2) == 1.0);
+  CHECK(m.system("after_standstill") == 0.5);
+}
+
 TEST_CASE("a robot that waits for another failed by the other's cause") {
   SyntheticTrial trial(6);
   trial.plan(std::vector<Points>(6, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(6, at(0, 0)));
-  trial.calls({becomes(0, DMRP_CLASS_MOVING)});
+  trial.events({becomes(0, DMRP_CLASS_MOVING)});
   trial.end(40.0, {never, never, never, never, never, 30.0});
   trial.failure(0, DMRP_FAILURE_HELD_BEHIND, 2).failure(1, DMRP_FAILURE_HELD_BEHIND, 2);
   trial.failure(2, DMRP_FAILURE_BLOCKED_ROBOT, 5);

@@ -152,13 +152,10 @@ TEST_CASE("planned length and turns come from the first plan, without waits") {
 
 TEST_CASE("planning time is the processor time of the first plan, in milliseconds") {
   SyntheticTrial trial(1);
-  trial.plan({{{0, 0}, {1, 0}}}, 40'000'000);
+  trial.plan({{{0, 0}, {1, 0}}}, 40'000'000, 12'500'000);
   trial.sample(0.0, {at(0, 0)});
-  trial.calls(
-      {{DMRP_CALL_PLAN, 0, DMRP_OK, 0, 40'000'000}, {DMRP_CALL_PLAN_PROCESSOR_TIME, 0, DMRP_OK, 0, 12'500'000}});
-  trial.plan({{{0, 0}, {1, 0}}}, 99'000'000);
-  trial.sample(1.0, {at(1, 0)});
-  trial.calls({{DMRP_CALL_PLAN_PROCESSOR_TIME, 0, DMRP_OK, 0, 98'000'000}}).end(1.0);
+  trial.plan({{{0, 0}, {1, 0}}}, 99'000'000, 98'000'000);
+  trial.sample(1.0, {at(1, 0)}).end(1.0);
   CHECK(measure("dmrp.metric.planning_time", trial).system("planning_time") == 12.5);
 }
 

@@ -138,7 +138,7 @@ inline core::World world_of(const ContactScene& scene) {
 inline void record(const core::World& world, SyntheticTrial& trial) {
   std::vector<dmrp_robot_sample> robots;
   for (const core::RobotState& robot : world.robots())
-    robots.push_back({robot.pose, robot.velocity, robot.command, robot.state, 0, 0.0, 0.0});
+    robots.push_back({robot.pose, robot.velocity, robot.command, robot.state, 0, 0.0, 0.0, robot.command, DMRP_OK, 0});
   trial.sample(1e-9 * static_cast<double>(world.t_ns()), robots);
   trial.crowd({world.people().begin(), world.people().end()});
   trial.contacts({world.contacts().begin(), world.contacts().end()});

@@ -141,7 +141,7 @@ TEST_CASE("ECBS-8 describes itself") {
   const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(ecbs8);
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_8);
+  CHECK(dmrp::test::traits_of<dmrp_planner_traits>(*descriptor).connectivity == DMRP_CONNECTIVITY_8);
   CHECK(descriptor->flags == 0);
 }
 

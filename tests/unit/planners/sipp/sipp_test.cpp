@@ -63,7 +63,7 @@ TEST_CASE("SIPP describes itself") {
   const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(sipp);
   REQUIRE(descriptor);
   CHECK(descriptor->kind == DMRP_KIND_GLOBAL_PLANNER);
-  CHECK(descriptor->connectivity == DMRP_CONNECTIVITY_4);
+  CHECK(dmrp::test::traits_of<dmrp_planner_traits>(*descriptor).connectivity == DMRP_CONNECTIVITY_4);
   CHECK(descriptor->flags == 0);
 }
 

@@ -32,7 +32,7 @@ typedef struct dmrp_path {
   uint32_t struct_size;
   uint32_t count;
   uint32_t stride;  // of waypoints: sizeof(dmrp_waypoint) as the path's maker was compiled
-  uint32_t flags;   // DMRP_PATH_* bits
+  uint32_t flags;   // DMRP_PATH_PARTIAL
   const dmrp_waypoint* waypoints;
 } dmrp_path;
 

@@ -15,6 +15,9 @@ extern "C" {
 #define DMRP_ROBOT_EVENT_CLASS 3u     // the referee's class of it is `detail` from this control tick on
 #define DMRP_ROBOT_EVENT_MONITOR 4u   // a safety monitor took the place of its command; `detail` is the monitor's own
 #define DMRP_ROBOT_EVENT_ROUTE 5u     // its way was led anew, around what stood on it
+// At this control tick nothing could move any more: such a trial ends, but this one is drawn to run to its limit. Once in a
+// trial, for each active robot.
+#define DMRP_ROBOT_EVENT_RUNS_ON 6u
 
 // `detail` of a recovery: what a robot does by itself, without its controller, when it makes no progress; until the next
 // step or the end. Open list.

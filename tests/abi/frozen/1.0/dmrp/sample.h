@@ -62,9 +62,9 @@ typedef struct dmrp_contact {
 
 // A plugin call since the last sample. Array element.
 typedef struct dmrp_call {
-  uint32_t kind;        // DMRP_CALL_*
-  uint32_t robot;       // that the controller drives; DMRP_ALL_ROBOTS of a central one, of planner and people
-  int32_t status;       // the returned status
+  uint32_t kind;   // DMRP_CALL_*
+  uint32_t robot;  // that the controller drives; DMRP_ALL_ROBOTS of a central one, of planner and people
+  int32_t status;  // the returned status
   uint32_t reserved;
   int64_t duration_ns;  // wall time
 } dmrp_call;

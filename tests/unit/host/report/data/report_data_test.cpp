@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/findings/summary.hpp"
 #include "host/results/csv.hpp"
-#include "host/results/summary.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
@@ -25,14 +25,14 @@ namespace {
 const std::vector<std::string> failure_metrics{"done"};
 
 ReportLayouts example_layouts() {
-  const std::string summary = R"({"columns": [{"metric": "time"}], "arrived": "done", "counts_failures": ["done"]})";
+  const std::string summary = R"({"columns": [{"metric": "time"}], "arrived": "done", "counts_failures": ["done"],
+                                "answer": {"people_progress": "progress", "people_speed": "desired"}})";
   return {parse_summary_layout(summary, "summary"), summary,
           parse_report_layout(R"({
             "diagnosis": {"x": "speed", "y": ["time", "done", "not measured"]},
             "comparisons": [{"metric": "time", "test": "signed_rank", "censored": true},
                             {"metric": "done", "test": "sign_flip"}, {"metric": "not measured"}],
             "completion": {"metric": "time"},
-            "pedestrian_delay": {"progress": "progress", "desired_speed": "desired"},
             "curves": [{"metric": "curve", "coordinate": "distance", "coordinate_unit": "m"}]
           })",
                               "report")};
@@ -113,7 +113,8 @@ TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
     for (const json& summary : of_combination) {
       REQUIRE(std::getline(csv, line));
       const std::vector<std::string> fields = fields_of(line);  // n is the eighth
-      CHECK(summary["trials"] == std::stoi(fields[7]));
+      CHECK(summary["tasks"] == std::stoi(fields[7]));
+      CHECK(summary["trials"] == std::stoi(fields[17]));
       CHECK(summary["defined"] == std::stoi(fields[8]));
       std::size_t column = 9;
       for (const char* key : {"mean", "sd", "median", "low", "high", "paper_mean"})
@@ -225,13 +226,12 @@ TEST_CASE("one trial, or one in which all robots fail, makes a report", "[report
   CHECK(data["completion"][0]["restricted_mean_s"] == time.value_or(180.0));
   CHECK(data["completion"][0]["arrived_share"] == (time ? 1.0 : 0.0));
   CHECK(data["completion"][0]["steps"].size() == (time ? 1u : 0u));
-  CHECK(data["completion"][0]["low"].is_null());  // one seed
   REQUIRE(data["correlations"].size() == 2);
   CHECK(data["correlations"][0]["rho"].is_null());
 }
 
-TEST_CASE("trials are compared by seed", "[report]") {
-  SECTION("Hollander and Wolfe's nine patients as seeds") {
+TEST_CASE("trials are compared by task", "[report]") {
+  SECTION("Hollander and Wolfe's nine patients as tasks") {
     const json data = data_of(trials_of({{"A", {1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30}},
                                          {"B", {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29}}}));
     const json& time = comparison(data, "time");
@@ -247,7 +247,8 @@ TEST_CASE("trials are compared by seed", "[report]") {
     CHECK(time["high"] == Approx(-0.010));
     CHECK(time["effect"] == Approx(-35.0 / 45.0));
     const json& done = comparison(data, "done");
-    CHECK(done["p"] == 1.0);
+    CHECK(done["equal"] == true);
+    CHECK(done["p"].is_null());
     CHECK(done["ties"] == 9);
     CHECK(data["comparisons"].size() == 2);
   }
@@ -277,9 +278,22 @@ TEST_CASE("trials are compared by seed", "[report]") {
     CHECK(found[0]["pairs"] == 1);
     CHECK(compared(trials_of({{"A", {40.0, std::nullopt}}, {"B", {std::nullopt, 50.0}}})).empty());
   }
+  SECTION("the crowds of one task are one observation, and few tasks give no p") {
+    std::vector<TrialRecord> trials = trials_of({{"A", {10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0}},
+                                                 {"B", {12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0, 21.0}}});
+    for (TrialRecord& trial : trials) trial.task = std::to_string(trial.repetition % 4);
+    const json data = data_of(trials);
+    const json& time = comparison(data, "time");
+    CHECK(time["pairs"] == 8);
+    CHECK(time["tasks"] == 4);
+    CHECK(time["mean_difference"] == 2.25);
+    CHECK(time["p"].is_null());
+    CHECK(data["summaries"][0][1]["tasks"] == 4);
+  }
   SECTION("Holm's correction runs over the planners of one scenario") {
-    const json data = data_of(
-        trials_of({{"A", {10.0, 10.0, 10.0, 10.0}}, {"B", {11.0, 12.0, 13.0, 14.0}}, {"C", {11.0, 12.0, 13.0, 14.0}}}));
+    const json data = data_of(trials_of({{"A", {10.0, 10.0, 10.0, 10.0, 10.0}},
+                                         {"B", {11.0, 12.0, 13.0, 14.0, 15.0}},
+                                         {"C", {12.0, 14.0, 16.0, 18.0, 20.0}}}));
     std::vector<double> p;
     std::vector<double> p_holm;
     for (const json& one : data["comparisons"]) {
@@ -287,42 +301,48 @@ TEST_CASE("trials are compared by seed", "[report]") {
       p.push_back(one["p"]);
       p_holm.push_back(one["p_holm"]);
     }
-    CHECK(p == std::vector<double>{0.125, 0.125, 1.0});  // A-B, A-C: 2 / 2^4; B-C: all zero
-    CHECK(p_holm == std::vector<double>{0.375, 0.375, 1.0});
+    CHECK(p == std::vector<double>(3, 0.0625));  // 2 / 2^5
+    CHECK(p_holm == std::vector<double>(3, 0.1875));
   }
 }
 
 TEST_CASE("correlations stay within a scenario and planner", "[report]") {
   // within A and within B faster is sooner; over both it would be the reverse
-  std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 39.0, 38.0}}, {"B", {90.0, 89.0, 88.0}}});
-  for (std::size_t i = 3; i < 6; ++i) trials[i].values[4].value = 2.0 + static_cast<double>(i);
+  std::vector<TrialRecord> trials =
+      trials_of({{"A", {40.0, 39.0, 38.0, 37.0, 36.0, 35.0}}, {"B", {90.0, 89.0, 88.0, 87.0, 86.0, 85.0}}});
+  for (std::size_t i = 6; i < 12; ++i) trials[i].values[4].value = 2.0 + static_cast<double>(i);
   const json data = data_of(trials);
   REQUIRE(data["correlations"].size() == 4);
   for (const json& one : data["correlations"])
     if (one["y"] == "time") {
       CHECK(one["rho"] == Approx(-1.0));
-      CHECK(one["n"] == 3);
-      CHECK(one["p"] == Approx(2.0 / 6.0));
+      CHECK(one["n"] == 6);
+      CHECK(one["p"].get<double>() < 0.01);  // 2 of 720
       CHECK(one["ties_share"] == 0.0);
     } else {
       CHECK(one["rho"].is_null());  // all succeeded
-      CHECK(one["ties_share"] == 1.0);
     }
+  SECTION("five tasks have none, however many crowds they meet") {
+    for (TrialRecord& trial : trials) trial.task = std::to_string(trial.repetition % 5);
+    for (const json& one : data_of(trials)["correlations"]) CHECK(one["rho"].is_null());
+  }
 }
 
 TEST_CASE("a correlation does not count differences between controllers", "[report]") {
-  std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 41.0, 42.0, 50.0, 51.0, 52.0}}});
-  const double speeds[] = {1.3, 1.1, 1.2, 2.3, 2.1, 2.2};  // the second controller is fast and late, each is neither
-  for (std::size_t i = 0; i < 6; ++i) {
-    trials[i].values[4].value = speeds[i];
-    if (i >= 3) trials[i].local_controller = "other";
+  std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 41.0, 42.0, 43.0, 44.0, 45.0}}});
+  const std::size_t of_one = trials.size();
+  for (std::size_t i = 0; i < of_one; ++i) {  // the second controller is fast and late, each is neither
+    trials[i].values[4].value = 1.0 - 0.01 * static_cast<double>(i);
+    TrialRecord& other = trials.emplace_back(trials[i]);
+    other.local_controller = "other";
+    other.values[3].value = *other.values[3].value + 20.0;
+    other.values[4].value = *other.values[4].value + 1.0;
   }
   const json data = data_of(trials);
   REQUIRE(data["correlations"].size() == 2);
   CHECK(data["correlations"][0]["y"] == "time");
   CHECK(data["correlations"][0]["n"] == 6);
-  CHECK(data["correlations"][0]["rho"] == Approx(-0.5));
-  CHECK(data["correlations"][0]["p"] == Approx(0.5).margin(0.03));
+  CHECK(data["correlations"][0]["rho"] == Approx(-1.0));
 }
 
 TEST_CASE("curves have a point for each threshold", "[report]") {
@@ -337,7 +357,7 @@ TEST_CASE("curves have a point for each threshold", "[report]") {
   REQUIRE(data["curves"].size() == 1);
   const json& curve = data["curves"][0];
   CHECK(curve["coordinate_unit"] == "m");
-  CHECK(curve["points"] == json::parse("[[0.5, 5.0, null, null, 1], [1.0, 10.0, 10.0, 10.0, 2]]"));
+  CHECK(curve["points"] == json::parse("[[0.5, 5.0, null, null, 1], [1.0, 10.0, null, null, 2]]"));
   CHECK_FALSE(data["values"].contains("curve"));
 }
 
@@ -366,8 +386,8 @@ TEST_CASE("the delay of people is the progress lost against the same crowd witho
   CHECK(delay["combination"] == 1);
   CHECK(delay["pairs"] == 2);
   CHECK(delay["mean_s"] == Approx(7.0));
-  CHECK(delay["low"] == Approx(6.0));
-  CHECK(delay["high"] == Approx(8.0));
+  CHECK(delay["tasks"] == 2);
+  CHECK(delay["low"].is_null());  // below ten tasks there is no interval
   CHECK(data["curves"].empty());  // what delays are made of is no threshold curve
   CHECK(data["completion"].empty());
 }

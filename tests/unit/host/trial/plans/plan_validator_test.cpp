@@ -113,10 +113,13 @@ class Case {
     problem.effective_from_ns = from_ns;
     problem.step_duration_ns = step_ns;
     problem.grid = &grid;
-    return validate_plan(problem, paths, connectivity, sweep_is_free);
+    problem.window_steps = window_steps;
+    return validate_plan(problem, paths, connectivity, sweep_is_free, partial);
   }
 
   PlannedPaths paths;
+  std::vector<bool> partial;
+  std::uint32_t window_steps = 0;
 
  private:
   std::vector<std::uint8_t> free_;
@@ -407,4 +410,27 @@ TEST_CASE("footprints that overlap on different cells are conflicts, one for eac
   CHECK(verdict.error.empty());
   CHECK(verdict.conflicts == 2);  // the first one arrives beside the other, and leaves
   CHECK(verdict.first_conflict == "footprint conflict of robots 0 and 1 at step 1");
+}
+
+TEST_CASE("a partial path need not reach the goal, where a window was asked for") {
+  Case c({path({{0, 0}, {1, 0}, {2, 0}})});
+  c.set_goals(0, {{5, 0}});
+  CHECK_THAT(error_of(c), Catch::Contains("not at its goal"));
+  c.partial = {true};
+  CHECK(error_of(c) == "robot 0 has a partial path, but the whole way was asked for");
+  c.window_steps = 2;
+  CHECK(error_of(c).empty());
+  c.paths[0][1].x += 0.3;  // the rest is as of every path
+  CHECK_FALSE(error_of(c).empty());
+}
+
+TEST_CASE("a partial path heads for a later goal only after it has been at the one before") {
+  Case c({path({{0, 0}, {1, 0}, {2, 0}})});
+  c.set_goals(0, {{1, 0}, {5, 0}});
+  c.partial = {true};
+  c.window_steps = 2;
+  c.paths[0][2].goal_index = 1;
+  CHECK(error_of(c).empty());
+  c.set_goals(0, {{1, 1}, {5, 0}});
+  CHECK_FALSE(error_of(c).empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,61 +10,34 @@
 namespace dmrp::host {
 namespace {
 
-// The trials of one combination, and its trials with each seed.
-struct Group {
-  std::vector<std::size_t> trials;  // indices
-  std::map<std::uint64_t, std::vector<std::size_t>> of_seed;
-};
-
-// All metrics with values for the same number of seeds share the bootstrap draws.
-class Intervals {
- public:
-  core::Interval of(std::span<const std::vector<double>> clusters) {
-    const auto found = draws_.try_emplace(clusters.size(), clusters.size());
-    return core::cluster_bootstrap_interval(clusters, found.first->second);
-  }
-
- private:
-  std::map<std::size_t, core::BootstrapDraws> draws_;
-};
-
-MetricSummary summarise_metric(std::size_t metric, bool counts_failures, const Group& group,
-                               std::span<const TrialRecord> trials, const SystemValues& system, Intervals& intervals) {
+MetricSummary summarise_metric(std::size_t metric, bool counts_failures, std::span<const std::size_t> of_group,
+                               std::span<const TrialRecord> trials, const SystemValues& system, const Tasks& tasks) {
   const auto value_of = [&](std::size_t trial) {
     const std::optional<double>& value = system[trial][metric];
     return !value && counts_failures && trials[trial].outcome == trial_outcome::fault ? std::optional(0.0) : value;
   };
   std::vector<double> values;
   std::vector<double> values_of_successful;
-  for (const std::size_t trial : group.trials) {
+  for (const std::size_t trial : of_group) {
     const std::optional<double> value = value_of(trial);
     if (!value) continue;
     values.push_back(*value);
     if (counts_failures || trials[trial].outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
   }
-  std::vector<std::vector<double>> clusters;
-  for (const auto& [seed, of_seed] : group.of_seed) {
-    std::vector<double> cluster;
-    for (const std::size_t trial : of_seed)
-      if (const std::optional<double> value = value_of(trial)) cluster.push_back(*value);
-    if (!cluster.empty()) clusters.push_back(std::move(cluster));
-  }
-
+  const core::MeanOfTasks over_tasks =
+      core::mean_of_tasks(task_means(tasks, of_group, value_of), bounds_of_values(counts_failures), tasks.resampling);
   MetricSummary summary;
+  summary.tasks = over_tasks.n;
   summary.defined = static_cast<std::uint32_t>(values.size());
-  summary.mean = core::mean(values);
+  summary.mean = over_tasks.mean;
   summary.sd = core::sample_sd(values);
   summary.median = core::median(values);
-  summary.interval = intervals.of(clusters);
+  summary.interval = over_tasks.interval;
   summary.paper = core::paper_mean(values_of_successful);
   return summary;
 }
 
 }  // namespace
-
-CombinationLabels combination_of(const TrialRecord& trial) {
-  return {trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model};
-}
 
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures) {
@@ -75,7 +48,7 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
                                           std::span<const std::string> counts_failures,
                                           CombinationLabels (*labels_of)(const TrialRecord&)) {
   std::vector<CombinationSummary> summaries;
-  std::vector<Group> groups;  // of each summary
+  std::vector<std::vector<std::size_t>> groups;  // of each summary: indices of trials
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialRecord& trial = trials[i];
     if (trial.outcome == trial_outcome::skipped) continue;
@@ -87,17 +60,17 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
       summaries.push_back({labels, 0, {}, trial.swept});
       groups.emplace_back();
     }
+    if (!has_result(trial)) continue;
     ++summaries[index].trials;
-    groups[index].trials.push_back(i);
-    groups[index].of_seed[trial.seed].push_back(i);
+    groups[index].push_back(i);
   }
   const SystemValues system = system_values(metrics, trials);
-  Intervals intervals;
+  const Tasks tasks = tasks_of(trials);
   for (std::size_t i = 0; i < summaries.size(); ++i)
     for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
       const bool counts =
           std::find(counts_failures.begin(), counts_failures.end(), metrics[metric].name) != counts_failures.end();
-      summaries[i].metrics.push_back(summarise_metric(metric, counts, groups[i], trials, system, intervals));
+      summaries[i].metrics.push_back(summarise_metric(metric, counts, groups[i], trials, system, tasks));
     }
   return summaries;
 }
@@ -109,7 +82,7 @@ std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const C
   const std::vector<std::string> swept = swept_columns(summaries);
   for (const std::string& name : swept) csv.field(name);
   for (const char* name : {"metric", "unit", "n", "n_defined", "mean", "sd", "median", "ci_low", "ci_high",
-                           "paper_mean", "paper_n", "paper_trimmed_all_nonzero"})
+                           "paper_mean", "paper_n", "paper_trimmed_all_nonzero", "trials"})
     csv.field(name);
   csv.end_line();
 
@@ -120,10 +93,11 @@ std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const C
       csv.field(combination.scenario).field(combination.robots).field(combination.global_planner);
       csv.field(combination.local_controller).field(combination.pedestrian_model);
       for (const std::string& name : swept) csv.field(swept_value(summary.swept, name));
-      csv.field(metrics[i].name).field(metrics[i].unit).field(summary.trials).field(metric.defined);
+      csv.field(metrics[i].name).field(metrics[i].unit).field(metric.tasks).field(metric.defined);
       csv.field(metric.mean).field(metric.sd).field(metric.median);
       csv.field(metric.interval.low).field(metric.interval.high);
       csv.field(metric.paper.mean).field(metric.paper.count).field(metric.paper.trimmed_all_nonzero ? 1 : 0);
+      csv.field(summary.trials);
       csv.end_line();
     }
   }

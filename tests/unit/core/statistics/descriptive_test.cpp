@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/statistics/bootstrap.hpp"
+#include "core/statistics/descriptive.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
-
-#include "core/statistics/descriptive.hpp"
 
 using namespace dmrp::core;
 
@@ -33,8 +31,6 @@ TEST_CASE("too few values give NaN", "[statistics]") {
   CHECK(std::isnan(median(none)));
   CHECK(std::isnan(sample_sd(one)));
   CHECK(mean(one) == 3.0);
-  CHECK(std::isnan(cluster_bootstrap_interval(std::vector<std::vector<double>>{{1, 2, 3}}).low));
-  CHECK(std::isnan(cluster_bootstrap_interval(std::vector<std::vector<double>>{{1, 2, 3}, {}}).low));
 }
 
 TEST_CASE("quantiles lie linearly between the values", "[statistics]") {
@@ -43,47 +39,6 @@ TEST_CASE("quantiles lie linearly between the values", "[statistics]") {
   CHECK(quantile_of_sorted(values, 1.0) == 40.0);
   CHECK(quantile_of_sorted(values, 0.1) == Approx(4.0));
   CHECK(quantile_of_sorted(values, 0.625) == Approx(25.0));
-}
-
-TEST_CASE("the bootstrap's interval", "[statistics]") {
-  SECTION("is a point where all clusters agree") {
-    const std::vector<std::vector<double>> clusters{{3.0}, {3.0, 3.0}, {3.0}};
-    const Interval interval = cluster_bootstrap_interval(clusters);
-    CHECK(interval.low == 3.0);
-    CHECK(interval.high == 3.0);
-  }
-  SECTION("of two clusters spans both, since one in four resamples repeats either") {
-    const std::vector<std::vector<double>> clusters{{0.0}, {1.0}};
-    const Interval interval = cluster_bootstrap_interval(clusters);
-    CHECK(interval.low == 0.0);
-    CHECK(interval.high == 1.0);
-  }
-  SECTION("comes near the normal one for many clusters of one") {
-    std::vector<std::vector<double>> clusters;
-    for (int i = 0; i < 400; ++i) clusters.push_back({static_cast<double>(i % 20)});
-    // 0 to 19, twenty times each: mean 9.5, standard error sqrt(33.25 / 400)
-    const double half = 1.96 * std::sqrt(33.25 / 400.0);
-    const Interval interval = cluster_bootstrap_interval(clusters);
-    CHECK(interval.low == Approx(9.5 - half).margin(0.05));
-    CHECK(interval.high == Approx(9.5 + half).margin(0.05));
-  }
-  SECTION("is as wide for robots with the same outcome in a trial as for one robot per trial") {
-    std::vector<std::vector<double>> single;
-    std::vector<std::vector<double>> fourfold;
-    for (int i = 0; i < 20; ++i) {
-      single.push_back(repeated(i % 2, 1));
-      fourfold.push_back(repeated(i % 2, 4));
-    }
-    CHECK(cluster_bootstrap_interval(fourfold).low == cluster_bootstrap_interval(single).low);
-    CHECK(cluster_bootstrap_interval(fourfold).high == cluster_bootstrap_interval(single).high);
-  }
-  SECTION("is repeatable to the bit, and changes with the seed") {
-    std::vector<std::vector<double>> clusters;
-    for (int i = 0; i < 30; ++i) clusters.push_back({std::sin(i)});
-    const Interval first = cluster_bootstrap_interval(clusters);
-    CHECK(cluster_bootstrap_interval(clusters).low == first.low);
-    CHECK(cluster_bootstrap_interval(clusters, {2000, 2}).low != first.low);
-  }
 }
 
 TEST_CASE("the paper's mean", "[statistics]") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/results/summary.hpp"
+#include "host/findings/summary.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -27,8 +27,8 @@ TEST_CASE("trials are summarised by combination", "[results]") {
   CHECK(time.mean == Approx(124.0 / 3.0));
   CHECK(time.sd == Approx(std::sqrt(16.0 / 3.0)));
   CHECK(time.median == 40.0);
-  CHECK(time.interval.low == 40.0);
-  CHECK(time.interval.high == Approx(44.0).margin(1.4));  // three draws of 44 have a probability of 1/27
+  CHECK(time.tasks == 3);
+  CHECK(std::isnan(time.interval.low));  // ten tasks have one
   CHECK(time.paper.mean == Approx(124.0 / 3.0));
 
   const MetricSummary& done = summaries[0].metrics[0];  // 1, 1, 0.5, 1; the paper's rule leaves the failed one out
@@ -40,6 +40,42 @@ TEST_CASE("trials are summarised by combination", "[results]") {
   CHECK(cpu.defined == 0);
   CHECK(std::isnan(cpu.mean));
   CHECK(std::isnan(summaries[1].metrics[1].sd));
+}
+
+TEST_CASE("five tasks under five seeds each are five observations", "[results]") {
+  std::vector<TrialRecord> trials;
+  for (std::uint32_t i = 0; i < 25; ++i) {
+    // tasks 0 and 1 fail with one crowd of five, the others never
+    trials.push_back(example_trial(i, "A", i, i < 2 ? std::nullopt : std::optional(40.0), 0.5));
+    trials.back().task = std::to_string(i % 5);
+  }
+  const std::vector<std::string> shares{"done"};
+  const MetricSummary done = summarise(example_metrics(), trials, shares)[0].metrics[0];
+  CHECK(done.tasks == 5);
+  CHECK(done.defined == 25);
+  CHECK(done.mean == Approx(0.96));
+
+  SECTION("with the interval of five trials that have the tasks' means") {
+    std::vector<TrialRecord> means;
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      means.push_back(example_trial(i, "A", i, 40.0, 0.5));
+      means.back().values[0].value = i < 2 ? 0.9 : 1.0;
+    }
+    const MetricSummary same = summarise(example_metrics(), means, shares)[0].metrics[0];
+    CHECK(same.interval.low == Approx(done.interval.low));
+    CHECK(same.interval.high == Approx(done.interval.high));
+  }
+}
+
+TEST_CASE("crowds that meet the only task of a world are observations", "[results]") {
+  std::vector<TrialRecord> trials;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    trials.push_back(example_trial(i, "A", i, 40.0, 0.5));
+    trials.back().task = "listed";
+  }
+  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 20);
+  trials.back().task = "another";  // now tasks are, with their crowds
+  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 2);
 }
 
 TEST_CASE("failed trials count in metrics that count failures", "[results]") {
@@ -61,9 +97,9 @@ TEST_CASE("summary.csv has a line for each combination and metric", "[results]")
   const std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, 40.0, 0.5)};
   CHECK(summary_csv(metrics, summarise(metrics, trials, {})) ==
         "scenario,robots,global_planner,local_controller,pedestrian_model,metric,unit,n,n_defined,mean,sd,median,"
-        "ci_low,ci_high,paper_mean,paper_n,paper_trimmed_all_nonzero\n"
-        "mall,2,A,DWA,crowd,time,s,2,2,40,0,40,40,40,40,2,0\n"
-        "mall,2,A,DWA,crowd,cpu,ms,2,0,,,,,,,0,0\n");
+        "ci_low,ci_high,paper_mean,paper_n,paper_trimmed_all_nonzero,trials\n"
+        "mall,2,A,DWA,crowd,time,s,2,2,40,0,40,,,40,2,0,2\n"
+        "mall,2,A,DWA,crowd,cpu,ms,0,0,,,,,,,0,0,2\n");
 }
 
 TEST_CASE("layouts are checked", "[results]") {

@@ -7,30 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/bootstrap.hpp"
 #include "core/statistics/descriptive.hpp"
+#include "host/findings/findings.hpp"
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
 
-// A combination: its trials differ in repetition and seed only.
-struct CombinationLabels {
-  std::string scenario;
-  std::uint32_t robots = 0;
-  std::string global_planner;
-  std::string local_controller;
-  std::string pedestrian_model;
-
-  bool operator==(const CombinationLabels&) const = default;
-};
-
 // One metric's system values over the trials of a combination. NaN where undefined.
 struct MetricSummary {
+  std::uint32_t tasks = 0;    // with a value: the observations
   std::uint32_t defined = 0;  // trials with a value
-  double mean = 0.0;
-  double sd = 0.0;  // over trials
-  double median = 0.0;
-  core::Interval interval{};  // 95 %, of the mean, over seeds
+  double mean = 0.0;          // of the tasks' means
+  double sd = 0.0;            // over trials
+  double median = 0.0;        // likewise
+  core::Interval interval{};  // 95 %, of the mean
   core::TrimmedMean paper{};  // over successful trials, or all trials if the metric counts failures
 };
 
@@ -41,10 +31,8 @@ struct CombinationSummary {
   std::vector<SweptValue> swept{};     // of its trials
 };
 
-CombinationLabels combination_of(const TrialRecord& trial);
-
-// In order of first appearance. `trials` are ordered by id. `counts_failures`: metrics that count failures
-// (SummaryLayout).
+// In order of first appearance. `trials` are ordered by id. `counts_failures`: metrics that count failures, which are
+// shares of robots (SummaryLayout).
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
                                           std::span<const std::string> counts_failures);
 

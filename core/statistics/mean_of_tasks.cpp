@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "core/statistics/mean_of_tasks.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/statistics/betting.hpp"
+
+namespace dmrp::core {
+namespace {
+
+// Of a resample, as a share of the observed one: few values that are nearly all equal have resamples in which nothing
+// differs, and a division by nearly nothing would make the interval as wide as one likes.
+constexpr double least_error = 0.2;
+
+// By stratum, of observations with multiplicities.
+struct Moments {
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+};
+
+struct MeanAndError {
+  double mean = undefined;
+  double error = undefined;
+};
+
+// The standard error of a mean over strata that are drawn within.
+MeanAndError mean_and_error(std::span<const Moments> strata) {
+  Moments all;
+  for (const Moments& one : strata) all = {all.count + one.count, all.sum + one.sum, 0.0};
+  double variance = 0.0;
+  for (const Moments& one : strata) {
+    if (one.count < 2.0) continue;
+    const double scatter = std::max(0.0, one.squares - one.sum * one.sum / one.count);
+    variance += one.count * scatter / (one.count - 1.0);
+  }
+  return {all.sum / all.count, std::sqrt(variance) / all.count};
+}
+
+// Values minus `center`, NaNs left out, each counted `counts[i]` times.
+template <class Counts>
+MeanAndError resampled(std::span<const double> values, double center, const Counts& counts,
+                       const Resampling& resampling, std::vector<Moments>& strata) {
+  std::fill(strata.begin(), strata.end(), Moments{});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    const double value = values[i] - center;
+    const double count = counts(i);
+    Moments& own = strata[resampling.stratum_of(i)];
+    own = {own.count + count, own.sum + count * value, own.squares + count * value * value};
+  }
+  return mean_and_error(strata);
+}
+
+// Not nearer to the mean than Student's interval at either end: with long tails on both sides the bootstrap-t is too
+// narrow, with one it is not, where Student's is.
+Interval bootstrap_t_interval(std::span<const double> values, double center, std::size_t n,
+                              const Resampling& resampling) {
+  std::vector<Moments> strata(resampling.strata());
+  const MeanAndError observed = resampled(
+      values, center, [](std::size_t) { return 1.0; }, resampling, strata);
+  if (!(observed.error > 0.0)) return {center, center};
+  std::vector<double> studentised;
+  for (std::size_t i = 0; i < resampling.resamples(); ++i) {
+    const auto counts = resampling.counts(i);
+    const MeanAndError drawn = resampled(
+        values, center, [&](std::size_t k) { return static_cast<double>(counts[k]); }, resampling, strata);
+    studentised.push_back((drawn.mean - observed.mean) / std::fmax(drawn.error, least_error * observed.error));
+  }
+  const Interval quantiles = percentile_interval(std::move(studentised));
+  const double student = student_quantile(n, significance / 2.0);
+  return {center - std::fmax(student, quantiles.high) * observed.error,
+          center + std::fmax(student, -quantiles.low) * observed.error};
+}
+
+Interval interval_within(std::vector<double> values, const Interval& bounds) {
+  const double span = bounds.high - bounds.low;
+  for (double& value : values) value = std::clamp((value - bounds.low) / span, 0.0, 1.0);
+  const Interval unit = betting_interval(values);
+  return {bounds.low + span * unit.low, bounds.low + span * unit.high};
+}
+
+}  // namespace
+
+MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling) {
+  const std::vector<double> values = resampling.by_observation(by_task);
+  std::vector<double> defined;
+  for (const double value : values)
+    if (!std::isnan(value)) defined.push_back(value);
+  MeanOfTasks result;
+  result.n = static_cast<std::uint32_t>(defined.size());
+  result.mean = mean(defined);
+  result.sd = sample_sd(defined);
+  if (bounds && !defined.empty())
+    result.interval = interval_within(std::move(defined), *bounds);
+  else if (defined.size() >= fewest_for_bootstrap_t)
+    result.interval = bootstrap_t_interval(values, result.mean, result.n, resampling);
+  return result;
+}
+
+MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
+                                const Resampling& resampling) {
+  assert(a.size() == b.size());
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
+  return difference_of_tasks(differences, bounds, resampling);
+}
+
+MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
+                                const Resampling& resampling) {
+  Bounds of_differences;
+  if (bounds) of_differences = Interval{bounds->low - bounds->high, bounds->high - bounds->low};
+  return mean_of_tasks(differences, of_differences, resampling);
+}
+
+double rule_of_three(std::uint32_t n) {
+  return n == 0 ? 1.0 : 1.0 - std::pow(0.05, 1.0 / static_cast<double>(n));
+}
+
+}  // namespace dmrp::core

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// mean_of_tasks.hpp: means over tasks and their paired differences, with 95 % intervals.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/statistics/descriptive.hpp"
+#include "core/statistics/resampling.hpp"
+
+namespace dmrp::core {
+
+// What values of a metric can be: [0, 1] of a share. None: unbounded at one end at least.
+using Bounds = std::optional<Interval>;
+inline constexpr Interval share_bounds{0.0, 1.0};
+
+// Of unbounded values; fewer have no interval: theirs would be too narrow.
+inline constexpr std::size_t fewest_for_bootstrap_t = 10;
+
+struct MeanOfTasks {
+  std::uint32_t n = 0;  // observations in which the value is defined: tasks, or worlds "in general"
+  double mean = undefined;
+  double sd = undefined;  // of the observations, with n - 1
+  Interval interval;      // undefined: none
+};
+
+// The mean over observations (resampling.hpp). Its interval: of bounded values by betting (betting.hpp), from one
+// observation on; of unbounded ones by the bootstrap-t (Efron and Tibshirani 1993, section 12.5) from ten on, at
+// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, the interval is that value: the data show no spread.
+MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
+
+// Of b - a, over tasks in which both are defined. `bounds`: of the values; the differences lie within the span between
+// them, and the betting interval is that of the difference mapped to [0, 1].
+MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
+                                const Resampling& resampling);
+
+// Of differences that are already paired (the times of robots that arrived with both).
+MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
+                                const Resampling& resampling);
+
+// The largest share that n tasks without a single case allow, at 95 %: 1 - 0.05^(1/n), about 3 / n (Hanley, Lippman-Hand:
+// If nothing goes wrong, is everything all right?, JAMA 249, 1983). 1 without tasks.
+double rule_of_three(std::uint32_t n);
+
+}  // namespace dmrp::core

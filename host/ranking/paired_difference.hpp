@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// paired_difference.hpp: what the differences of two entries on the same tasks say.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/statistics/mean_of_tasks.hpp"
+#include "core/statistics/resampling.hpp"
+
+namespace dmrp::host {
+
+inline constexpr double significant = 0.05;
+
+// Fewer tasks give no p.
+inline constexpr std::size_t fewest_tasks = 5;
+
+enum class PairedTest { signed_rank, sign_flip };  // core/statistics; the second is for shares
+
+struct PairedDifference {
+  core::MeanOfTasks over_tasks{};
+  double p = core::undefined;       // two-sided; NaN below the fewest tasks, or if nothing differs
+  double p_holm = core::undefined;  // over the comparisons that are made together: adjust_by_holm()
+  bool exact = true;
+  bool equal = true;  // in every task
+};
+// `by_task`: NaN where undefined.
+PairedDifference paired_difference(std::span<const double> by_task, PairedTest test,
+                                   const core::Resampling& resampling);
+
+void adjust_by_holm(std::span<PairedDifference* const> family);
+
+}  // namespace dmrp::host
