@@ -3,9 +3,9 @@
 # Every header of the SDK compiles alone, and twice in a row, in the languages that it promises, by gcc and clang,
 # without a warning, and the templates of EXAMPLES_DIR compile. The C headers also have no padding that the compiler put
 # in, declare everything as extern "C", and have at most 150 lines, without what later minor versions append.
-# Called as: headers.sh INCLUDE_DIR EXAMPLES_DIR
+# Called as: headers.sh INCLUDE_DIR EXAMPLES_DIR [FLAG of the compilers]
 set -uo pipefail
-include=$(realpath "$1") examples=$(realpath "$2")
+include=$(realpath "$1") examples=$(realpath "$2") flag=${3:-}
 
 # compile COMPILER STANDARD SOURCE|HEADER...: prints what went wrong
 compile() {
@@ -13,11 +13,12 @@ compile() {
   [[ $standard == *++* ]] && flags=(-x c++)
   [[ $standard == c11 && $3 == *.h ]] && flags+=(-Wpadded)
   flags+=(-std="$standard" -pedantic -Wall -Wextra -Wconversion -Werror -I "$include" -fsyntax-only)
+  [[ -z $flag ]] || flags+=("$flag")
   if [[ $3 == /* ]]; then cat "$3"; else printf '#include <dmrp/%s>\n' "${@:3}" "${@:3}"; fi |
     "$compiler" "${flags[@]}" - || echo "FAILED: ${*:3} as $standard by $compiler"
 }
 export -f compile
-export include
+export include flag
 
 compilers=()
 for compiler in gcc clang; do

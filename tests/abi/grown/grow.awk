@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Prints a C header as the next minor version might have it: a field at the end of every struct but values, a function at
-# the end of every table, an agent kind, a parameter type, a status, an extension. Called as: awk -v minor=N -f grow.awk
-# HEADER, N: the next minor version.
+# Prints a C header as the next minor version might have it: a field at the end of every struct but values, a function
+# at the end of every table, an agent kind, a parameter type, a status, an extension.
+# Called as: awk -v minor=N -f grow.awk HEADER, N: the next minor version.
 BEGIN { later = "#if DMRP_TARGET_MINOR >= " minor "\n" }
 
 /^#define DMRP_ABI_MINOR / { print "#define DMRP_ABI_MINOR " minor; next }

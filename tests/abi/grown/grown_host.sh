@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # A host of the next minor version: every struct of the headers has grown, and no line of the host was touched. It is
-# built, and libraries that were built with today's headers run on it as on today's host: the shipped ones, the templates,
-# and plugins in C. WORK_DIR is emptied, and holds the build: a folder in a build tree, so that ccache knows it again.
+# built, and libraries that were built with today's headers run on it as on today's host: the shipped ones, the
+# templates, and plugins in C. WORK_DIR is emptied, and holds the build: in a build tree, so that ccache knows it again.
 # Called as: grown_host.sh DMRP_HOST SOURCE_DIR WORK_DIR
 source "$(dirname "${BASH_SOURCE[0]}")/../../end_to_end/checks.sh"
 set -e
@@ -40,13 +40,12 @@ gcc -std=c99 "${flags[@]}" "$source_dir/tests/abi/old_plugins/controller.c" -lm 
 
 # both NAME COMMAND...: the output of each host, with HOST in its place, is the same
 both() {
-  local name=$1 program
+  local name=$1
   shift
-  for program in "$host" "$later"; do
-    expect_status 0 "${@/HOST/$program}"
-    sed "s,^.*/lib/,lib/," "$scratch/stdout" >"$name.$([[ $program == "$later" ]] && echo later || echo today)"
-  done
-  diff "$name.today" "$name.later" || fail "$name differs"
+  expect_status 0 "${@/HOST/$host}"
+  sed "s,^.*/lib/,lib/," "$scratch/stdout" >"$name.today"
+  expect_status 0 "${@/HOST/$later}"
+  sed "s,^.*/lib/,lib/," "$scratch/stdout" | diff "$name.today" - || fail "$name differs"
 }
 for library in libdmrp_{planners,controllers,pedestrians,metrics}.so ./*.so; do
   both "$(basename "$library").plugins" HOST plugins "$library"
@@ -60,10 +59,9 @@ for planner in org.example.planner org.example.planner_in_c dmrp.planner.cbs; do
     *.planner) plugin=(--plugin ./libplanner.so) ;;
     *_in_c) plugin=(--plugin ./libplanner_in_c.so) ;;
   esac
-  for program in "$host" "$later"; do
-    expect_status 0 "$program" plan --scenario tours "${plugin[@]}" --planner "$planner" --paths "$scratch/$(basename "$(dirname "$(dirname "$program")")").paths"
-  done
-  cmp "$scratch"/*.paths || fail "$planner plans otherwise"
+  expect_status 0 "$host" plan --scenario tours "${plugin[@]}" --planner "$planner" --paths today.paths
+  expect_status 0 "$later" plan --scenario tours "${plugin[@]}" --planner "$planner" --paths later.paths
+  cmp today.paths later.paths || fail "$planner plans otherwise"
 done
 
 cat >experiment.toml <<'END'
@@ -71,7 +69,8 @@ cat >experiment.toml <<'END'
 seed = 1
 trials = 1
 plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians.so", "libdmrp_metrics.so",
-           "./libplanner.so", "./libcontroller.so", "./libpedestrian-model.so", "./libmetric.so", "./libcontroller_in_c.so"]
+           "./libplanner.so", "./libcontroller.so", "./libpedestrian-model.so", "./libmetric.so",
+           "./libcontroller_in_c.so"]
 [simulation]
 time_limit_s = 60.0
 [[scenario]]
@@ -91,10 +90,10 @@ use = "org.example.pedestrian-model"
 [[pedestrian_model]]
 use = "dmrp.pedestrian.social_force"
 END
-for program in "$host" "$later"; do
-  expect_status 0 "$program" experiment.toml --quiet --jobs 2 --out "run.$([[ $program == "$later" ]] && echo later || echo today)"
-done
+expect_status 0 "$host" experiment.toml --quiet --jobs 2 --out run.today
+expect_status 0 "$later" experiment.toml --quiet --jobs 2 --out run.later
 diff <(values_of run.today) <(values_of run.later) || fail "trials have other values"
 trials=$(query run.today "SELECT count(*) FROM trial WHERE outcome <> 'fault';")
 ((trials == 12)) || fail "$trials trials of 12 without a fault"
-echo "$(ls ./*.so "$installed"/lib/dmrp/plugins/*.so | wc -l) libraries, 3 planners, $trials trials: the same on the grown host"
+libraries=$(ls ./*.so "$installed"/lib/dmrp/plugins/*.so | wc -l)
+echo "$libraries libraries, 3 planners, $trials trials: the same on the grown host"

@@ -13,7 +13,8 @@ trap 'rm -rf "$scratch"' EXIT
 
 # answers_with INCLUDE_DIR FLAG...: of the libraries built with these headers
 answers_with() {
-  local flags=(-pedantic -Wall -Wextra -Werror -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I "$here/../../.." -I "$@")
+  local flags=(-pedantic -Wall -Wextra -Werror -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden)
+  flags+=(-I "$here/../../.." -I "$@")
   "$c" -std=c99 "${flags[@]}" "$here/controller.c" -lm -o "$scratch/libcontroller.so"
   "$cxx" -std=c++17 "${flags[@]}" "$here/plugins.cpp" -o "$scratch/libplugins.so"
   "$answers" "$scratch/libcontroller.so" && "$answers" "$scratch/libplugins.so"
