@@ -95,5 +95,5 @@ expect_status 0 "$later" experiment.toml --quiet --jobs 2 --out run.later
 diff <(values_of run.today) <(values_of run.later) || fail "trials have other values"
 trials=$(query run.today "SELECT count(*) FROM trial WHERE outcome <> 'fault';")
 ((trials == 12)) || fail "$trials trials of 12 without a fault"
-libraries=$(ls ./*.so "$installed"/lib/dmrp/plugins/*.so | wc -l)
-echo "$libraries libraries, 3 planners, $trials trials: the same on the grown host"
+libraries=(./*.so "$installed"/lib/dmrp/plugins/*.so)
+echo "${#libraries[@]} libraries, 3 planners, $trials trials: the same on the grown host"
