@@ -66,7 +66,7 @@ Contrast contrast_of(std::vector<double> differences, const Criterion& criterion
   return one;
 }
 
-// Where entries differ nowhere, there is nothing to test.
+// There is nothing to test where entries differ nowhere.
 std::vector<Contrast> contrasts_of(std::size_t entries, std::span<const Criterion> criteria,
                                    const Resampling& resampling, std::uint32_t& observations) {
   std::vector<Contrast> found;

@@ -21,7 +21,7 @@ enum class PairedScore { mean, ranks };
 // Differences b - a of two entries by task; NaN where undefined. Antisymmetric.
 using PairedDifferences = std::function<std::vector<double>(std::size_t a, std::size_t b)>;
 
-// From the values [entry][task] of entries; keeps a reference.
+// Takes the values [entry][task] of entries, and keeps a reference to them.
 PairedDifferences differences_of(const std::vector<std::vector<double>>& values);
 
 struct Criterion {

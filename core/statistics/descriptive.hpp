@@ -13,7 +13,7 @@ namespace dmrp::core {
 // The statistic of too few values.
 inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-// Of tests and, as 1 - 0.05, of intervals.
+// It is the level of tests and, as 1 - 0.05, that of intervals.
 inline constexpr double significance = 0.05;
 
 // Between two ends; undefined at both where there is none.

@@ -16,7 +16,7 @@ namespace {
 // differs, and a division by nearly nothing would make the interval as wide as one likes.
 constexpr double least_error = 0.2;
 
-// By stratum, of observations with multiplicities.
+// It is by stratum, of observations with multiplicities.
 struct Moments {
   double count = 0.0;
   double sum = 0.0;

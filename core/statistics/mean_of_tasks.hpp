@@ -16,7 +16,7 @@ namespace dmrp::core {
 using Bounds = std::optional<Interval>;
 inline constexpr Interval share_bounds{0.0, 1.0};
 
-// Of unbounded values; fewer have no interval: theirs would be too narrow.
+// Fewer unbounded values have no interval: theirs would be too narrow.
 inline constexpr std::size_t fewest_for_bootstrap_t = 10;
 
 struct MeanOfTasks {
@@ -31,7 +31,7 @@ struct MeanOfTasks {
 // either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, the interval is that value: the data show no spread.
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
 
-// Of b - a, over tasks in which both are defined. `bounds`: of the values; the differences lie within the span between
+// The mean of b - a, over tasks in which both are defined. `bounds`: of the values; the differences lie within the span between
 // them, and the betting interval is that of the difference mapped to [0, 1].
 MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
                                 const Resampling& resampling);
