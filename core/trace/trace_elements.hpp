@@ -28,8 +28,6 @@ inline constexpr std::size_t least_element_bytes<dmrp_call> = 24;
 template <>
 inline constexpr std::size_t least_element_bytes<dmrp_robot_event> = 24;
 template <>
-inline constexpr std::size_t least_element_bytes<dmrp_task_event> = 88;
-template <>
 inline constexpr std::size_t least_element_bytes<dmrp_robot_end> = 24;
 
 // The fields that an older trace does not have: zero, unless the contract names another value.

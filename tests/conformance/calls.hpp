@@ -24,6 +24,7 @@ void check_outcomes(const char* id, bool returns_status, Call&& call) {
   std::vector<CallOutcome> all = {{"nothing", DMRP_OK, ""},
                                   {"throw", DMRP_ERROR, "thrown on purpose"},
                                   {"throw bad_alloc", DMRP_OUT_OF_MEMORY, ""},
+                                  {"throw unsupported", DMRP_UNSUPPORTED, "not for it"},
                                   {"throw number", DMRP_ERROR, "an exception that is no std::exception"}};
   if (returns_status) all.push_back({"warning", DMRP_WARNING, ""});
   if (returns_status) all.push_back({"no solution", DMRP_NO_SOLUTION, ""});

@@ -115,6 +115,7 @@ struct Trial {
   PathAlongX way{2};
   Longer<dmrp_path> path{way.c()};
   std::vector<Longer<dmrp_route>> routes{{{1, DMRP_PATH_CONTINUES, &path.known}}};
+  std::vector<Longer<dmrp_goal>> errands{2};
   std::vector<Longer<dmrp_task_event>> task_events{2};
   dmrp_sample sample{};
   std::vector<Longer<dmrp_robot_end>> ends{2};
@@ -152,7 +153,11 @@ struct Trial {
     sample.routes = &routes.front().known;
     sample.route_count = 1;
     sample.route_stride = sizeof(routes.front());
+    errands[1].known.pose.x = 12.0;
     task_events[1].known.task = 5;
+    task_events[1].known.errand_count = 2;
+    task_events[1].known.errand_stride = sizeof(errands.front());
+    task_events[1].known.errands = &errands.front().known;
     sample.task_events = &task_events.front().known;
     sample.task_event_count = 2;
     sample.task_event_stride = sizeof(task_events.front());
@@ -310,7 +315,8 @@ TEST_CASE("a metric sees plan, samples and end, and its values reach the sink as
   REQUIRE(begin(sample) == DMRP_OK);
   CHECK(seen().numbers == std::vector<double>{4.0});
   REQUIRE(observe(sample) == DMRP_OK);
-  CHECK(seen().numbers == std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0, 0.0, 5.0});
+  CHECK(seen().numbers ==
+        std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0, 0.0, 5.0, 0.0, 12.0});
   sink.said.clear();
   REQUIRE(finish(sample) == DMRP_OK);
   CHECK(sink.said == std::vector<std::string>{"plain 0 0 - 30", "timed 1 1 - -", "curved 2 12 - 10", "curved 0 0 5 20",

@@ -22,6 +22,7 @@ namespace {
 // Returns from a call as `does` says.
 dmrp::Status leave(const std::string& does) {
   if (does == "throw") throw std::runtime_error("thrown on purpose");
+  if (does == "throw unsupported") throw dmrp::Unsupported("not for it");
   if (does == "throw bad_alloc") throw std::bad_alloc();
   if (does == "throw number") throw 42;
   if (does == "warning") return dmrp::Status::warning;
@@ -258,7 +259,10 @@ class SampleMetric final : public dmrp::Metric {
     for (const dmrp::RobotEvent& event : sample.events) seen().numbers.push_back(1.0 * event.detail);
     for (const dmrp::Route& route : sample.routes)
       for (const dmrp::Waypoint& waypoint : dmrp::Path(*route.path)) seen().numbers.push_back(waypoint.x);
-    for (const dmrp::TaskEvent& event : sample.task_events) seen().numbers.push_back(static_cast<double>(event.task));
+    for (const dmrp::TaskEvent& event : sample.task_events) {
+      seen().numbers.push_back(static_cast<double>(event.task));
+      for (const dmrp::Goal& errand : dmrp::errands(event)) seen().numbers.push_back(errand.pose.x);
+    }
     leave(does);
   }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {

@@ -55,6 +55,14 @@ for name in anytime grid_of_each lifelong policy any_drive central kinodynamic m
     "2|succeeded|succeeded|1|0" ]] || fail "$name: $(query "$name" "SELECT * FROM trial; SELECT * FROM fault")"
 done
 
+# one controller drives the four robots of the mixed fleet, the tug by its steering angle: it sees no walls, so not all arrive
+sed -e "s|\"libdmrp_metrics.so\"|&, \"$folder/libwish_any_drive.so\"|" -e 's/^use  *= "dmrp.controller.teb"/use = "org.example.any_drive"/' \
+  -e '/^params_file/d' "$here/../../examples/mixed_fleet.toml" >mixed_fleet.toml
+expect_status 0 "$host" mixed_fleet.toml --quiet --trials 5 --out mixed_fleet
+arrived=$(query mixed_fleet "SELECT group_concat(n) FROM (SELECT sum(value) AS n FROM value
+  WHERE metric = 'success' AND subject_kind = 'robot' GROUP BY subject)")
+[[ $arrived == [45].0,[45].0,[45].0,[45].0 ]] || fail "of five trials of the mixed fleet its robots should arrive in four: $arrived"
+
 # a planner and a controller that keep something between their calls, in other workers
 for name in anytime central; do
   expect_status 0 "$host" "$name.toml" --quiet --jobs 1 --out "${name}_again"

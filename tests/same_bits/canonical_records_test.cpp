@@ -50,7 +50,7 @@ std::size_t bytes_without_meaning(const TraceBytes& trace) {
   std::size_t bytes = 0;
   while (const dmrp_sample* sample = reader.next_sample()) {
     bytes += sample->call_count * sizeof(dmrp_call::duration_ns);
-    for (const std::uint32_t count : {sample->contact_count, sample->event_count, sample->task_event_count})
+    for (const std::uint32_t count : {sample->contact_count, sample->event_count})
       if (count == 0) bytes += sizeof(std::uint32_t);
   }
   return bytes;

@@ -33,6 +33,7 @@ class AnyDrive final : public dmrp::LocalController {
 
   dmrp::Status start(const dmrp::Start& start) override {
     path_.clear();
+    reverses_ = false;
     kinematics_ = start.world.robots()[static_cast<std::size_t>(start.robot)].kinematics;
     return dmrp::Status::ok;
   }
@@ -45,9 +46,14 @@ class AnyDrive final : public dmrp::LocalController {
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
     if (path_.empty()) return dmrp::Status::no_solution;
     const double end_m = arcs_.back();
-    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.6, end_m));
+    // A car turns into a corner by the radius of its turn before it.
+    const double turn_m =
+        kinematics_ == DMRP_KINEMATICS_ACKERMANN ? now.limits.wheelbase_m / std::tan(now.limits.steering_max) : 0.0;
+    const dmrp::Vec2 ahead = toolkit::point_at(path_, arcs_, std::min(now.progress_m + 0.6 + turn_m, end_m));
     const dmrp::Vec2 offset = toolkit::to_local(now.pose, ahead);
-    const double left_m = std::max(0.0, end_m - now.progress_m);
+    // A car may reach the length of its path beside the end.
+    const double left_m =
+        std::max(end_m - now.progress_m, toolkit::norm(toolkit::to_local(now.pose, toolkit::position(path_.back()))));
     const double speed = std::min({now.limits.v_max, std::sqrt(now.limits.a_max * left_m), clear_speed(now, offset)});
     switch (kinematics_) {
       case DMRP_KINEMATICS_HOLONOMIC:
@@ -91,18 +97,23 @@ class AnyDrive final : public dmrp::LocalController {
       command.omega = 2.0 * toolkit::difference(now.pose.theta, now.goal.pose.theta);
   }
 
-  // The circle through the point ahead, as far as the wheels turn in this period from where they are; backwards to a point behind.
-  static void steer(const dmrp::Observation& now, dmrp::Vec2 offset, double speed, dmrp::Command& command) {
+  // The circle through the point ahead, as far as the wheels turn in this period from where they are. The robot turns to a
+  // point behind it as a car does: backwards, with the wheels turned away from the point.
+  void steer(const dmrp::Observation& now, dmrp::Vec2 offset, double speed, dmrp::Command& command) {
+    const double bearing = std::abs(std::atan2(offset.y, offset.x));
+    reverses_ = now.limits.v_min < 0.0 && bearing > (reverses_ ? 0.5 : 1.5);
     const double curvature = 2.0 * offset.y / std::max(toolkit::squared_norm(offset), 1e-9);
-    const double wanted =
-        std::clamp(std::atan(now.limits.wheelbase_m * curvature), -now.limits.steering_max, now.limits.steering_max);
+    const double wanted = reverses_ ? std::copysign(now.limits.steering_max, -offset.y)
+                                    : std::clamp(std::atan(now.limits.wheelbase_m * curvature),
+                                                 -now.limits.steering_max, now.limits.steering_max);
     const double reach = now.limits.steering_rate_max * dmrp::seconds(now.dt_ns);
     const double steering = now.steering_angle + std::clamp(wanted - now.steering_angle, -reach, reach);
-    command.v_x = offset.x < 0.0 ? std::max(now.limits.v_min, -speed) : speed;
+    command.v_x = reverses_ ? std::max(now.limits.v_min, -speed) : speed;
     command.omega = command.v_x * std::tan(steering) / now.limits.wheelbase_m;
   }
 
   std::uint32_t kinematics_ = DMRP_KINEMATICS_DIFFERENTIAL;
+  bool reverses_ = false;
   std::vector<dmrp::Waypoint> path_;
   std::vector<double> arcs_;
 };

@@ -119,6 +119,7 @@ struct ExampleSample {
   std::array<dmrp_contact, 2> contacts{};
   std::array<dmrp_call, 3> calls{};
   std::array<dmrp_robot_event, 3> events{};
+  std::array<dmrp_goal, 2> errands{};
   std::array<dmrp_task_event, 2> task_events{};
   std::vector<dmrp_waypoint> course;
   std::array<dmrp_path, 2> paths{};
@@ -152,9 +153,10 @@ struct ExampleSample {
     events[0] = {DMRP_ROBOT_EVENT_CLASS, 0, k * 20'000'000, DMRP_CLASS_HELD, 1};
     events[1] = {DMRP_ROBOT_EVENT_CLIPPED, 1, k * 20'000'000 - 10, 0, DMRP_NOBODY};
     events[2] = {77, 1, k * 20'000'000, 0xffffffff, 0};  // of a kind that is not known
-    const dmrp_goal errand = {{x, 2.5, std::nan("")}, 0.2, 0.3, 0.1, 500'000'000};
-    task_events[0] = {k, 8, DMRP_TASK_RELEASED, DMRP_NOBODY, 0, 0, errand};
-    task_events[1] = {k, 7, DMRP_TASK_VISITED, 1, 2, 0, errand};
+    errands[0] = {{x, 2.5, std::nan("")}, 0.2, 0.3, 0.1, 500'000'000};
+    errands[1] = {{2.5, x, 0.25}, 0.2, 0.3, 0.1, 0};
+    task_events[0] = {k, 8, DMRP_TASK_RELEASED, DMRP_NOBODY, 0, 2, sizeof(dmrp_goal), 0, errands.data()};
+    task_events[1] = {k, 7, DMRP_TASK_VISITED, 1, 2, 1, sizeof(dmrp_goal), 0, errands.data()};
     add_routes(k);
     sample.struct_size = sizeof(dmrp_sample);
     sample.control_tick = k % 5 == 0;

@@ -122,7 +122,11 @@ class OtherVersion {
           copy(route, out, 4 * 4);
           elements(route, out);
         });
-      elements(in, out);
+      for (std::uint32_t events = copy_count(in, out); events > 0; --events)
+        block(in, out, [&](RecordCursor& event) {
+          copy(event, out, 2 * 8 + 3 * 4);
+          elements(event, out);
+        });
     }
     if (kind == TraceRecordKind::end) {
       copy(in, out, 4 + 8);
@@ -174,7 +178,7 @@ TEST_CASE("elements shorter than those of version 1.0 of the contract are refuse
   const TraceBytes trace = example_trace(8);
   for (const std::size_t size :
        {sizeof(dmrp_goal), sizeof(dmrp_waypoint), sizeof(dmrp_robot_sample), sizeof(dmrp_person), sizeof(dmrp_contact),
-        sizeof(dmrp_call), sizeof(dmrp_robot_event), sizeof(dmrp_task_event), sizeof(dmrp_robot_end)}) {
+        sizeof(dmrp_call), sizeof(dmrp_robot_event), sizeof(dmrp_robot_end)}) {
     const TraceBytes cut = OtherVersion(0, size, 8).of(trace);
     CHECK(cut.size() < trace.size());
     CHECK_THROWS_WITH(TraceReader(cut), Catch::Contains("elements shorter than those of version 1.0"));

@@ -31,13 +31,15 @@ typedef struct dmrp_task_event {
   uint64_t task;
   uint32_t kind;        // DMRP_TASK_*
   uint32_t robot;       // DMRP_NOBODY when it is released
-  uint32_t goal_index;  // of ASSIGNED and VISITED: the robot's goal that the errand is or becomes
+  uint32_t goal_index;  // of ASSIGNED and VISITED: the robot's goal that the first errand is or becomes
+  uint32_t errand_count;
+  uint32_t errand_stride;
   uint32_t reserved;
-  dmrp_goal goal;  // the errand; of RELEASED the first
+  const dmrp_goal* errands;  // of RELEASED and ASSIGNED those to be visited, of VISITED the one that was
 } dmrp_task_event;
 
 DMRP_ASSERT_SIZE(dmrp_task, 32);
-DMRP_ASSERT_SIZE(dmrp_task_event, 88);
+DMRP_ASSERT_SIZE(dmrp_task_event, 48);
 
 #ifdef __cplusplus
 }

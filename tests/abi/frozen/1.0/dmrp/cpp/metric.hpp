@@ -21,6 +21,10 @@ using TaskEvent = dmrp_task_event;
 using Statistic = dmrp_statistic;
 using Subject = dmrp_subject;
 
+inline Span<Goal> errands(const TaskEvent& event) {
+  return {event.errands, event.errand_count, event.errand_stride};
+}
+
 // A value that is undefined for this trial: NULL in the results.
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
@@ -62,8 +66,8 @@ struct Sample {
   Span<Contact> contacts;
   Span<Call> calls;
   Span<RobotEvent> events;
-  Span<Route> routes;  // Path(*routes[i].path) views one
-  Span<TaskEvent> task_events;
+  Span<Route> routes;           // Path(*routes[i].path) views one
+  Span<TaskEvent> task_events;  // errands(task_events[i]) views those of one
 };
 
 enum class Severity : std::uint32_t {
@@ -133,7 +137,8 @@ class MetricSink {
 
 class Metric : public Plugin {
  public:
-  // `plan` is the first plan, nullptr if planning failed. Throw to report an error.
+  // `plan` is the first plan, nullptr if planning failed. Throw to report an error, or Unsupported if the metric has no
+  // values for this trial.
   virtual void begin(const dmrp_plan* plan) = 0;
   virtual void observe(const Sample& sample) = 0;
   virtual void finish(const TrialEnd& end, MetricSink& sink) = 0;

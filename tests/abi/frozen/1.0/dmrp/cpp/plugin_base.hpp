@@ -44,6 +44,13 @@ enum class Status : std::int32_t {
   unsupported = DMRP_UNSUPPORTED
 };
 
+// Thrown from a call that may return Status::unsupported: this trial is not for the plugin. A std::exception of another
+// class is an error.
+class Unsupported : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 enum class LogLevel : std::int32_t {
   debug = DMRP_LOG_DEBUG,
   info = DMRP_LOG_INFO,
@@ -194,6 +201,9 @@ struct PluginAccess {
       return static_cast<std::int32_t>(call());
     } catch (const std::bad_alloc&) {
       return DMRP_OUT_OF_MEMORY;
+    } catch (const Unsupported& reason) {
+      host->set_error(host, reason.what());
+      return DMRP_UNSUPPORTED;
     } catch (const std::exception& error) {
       host->set_error(host, error.what());
     } catch (...) {
