@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <string_view>
 
@@ -179,6 +180,13 @@ void counted_free(void* block) {
   std::free(block);
 }
 
+std::atomic<int> filling = 0;
+
+void* filled_malloc(std::size_t bytes) {
+  void* const block = std::malloc(bytes);
+  return block ? std::memset(block, filling, bytes) : block;
+}
+
 }  // namespace
 
 static void hook_clocks() {
@@ -206,6 +214,12 @@ void count_allocations(const CallGuard& guard) {
                             Hook{"aligned_alloc", address(counted_aligned_alloc)},
                             Hook{"posix_memalign", address(counted_posix_memalign)},
                             Hook{"free", address(counted_free)}};
+  hook(hooks);
+}
+
+void fill_new_memory(std::uint8_t byte) {
+  filling = byte;
+  const std::array hooks = {Hook{"malloc", address(filled_malloc)}};
   hook(hooks);
 }
 

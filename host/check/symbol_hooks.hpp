@@ -18,6 +18,9 @@ void let_clocks_leap();
 // Lets the same clocks tell this much more from now on.
 void let_clocks_be_off(std::int64_t ns);
 
+// Memory that libraries allocate from now on is full of this.
+void fill_new_memory(std::uint8_t byte);
+
 // What calls of a plugin have allocated since count_allocations().
 struct Allocations {
   std::int64_t count = 0;

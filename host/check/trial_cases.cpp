@@ -156,6 +156,11 @@ void in_another_place(Examination& it) {
   const auto in_the_place_of_the_first = it.create();
   it.at("in memory that was used before");
   expect_same(it, alone(it, it.seed()), expected);
+  for (const std::uint8_t byte : {0x00, 0x3f, 0xff}) {
+    it.at(fmt::format("in memory full of 0x{:02x}", byte));
+    fill_new_memory(byte);
+    expect_same(it, alone(it, it.seed()), expected);
+  }
 }
 
 // What is drawn, counted or kept rarely shows late.
@@ -244,6 +249,13 @@ void longer_structs(Examination& it) {
   expect_same(it, rehearse(*instance, it.plugin(), {.grown_bytes = grown_bytes}, it.seed()), expected);
 }
 
+void unknown_constants(Examination& it) {
+  skip_if_newer(it);
+  const Outputs expected = alone(it, it.seed());
+  it.at("with kinds and flags that this version does not know");
+  expect_same(it, rehearse(*it.create(), it.plugin(), {.unknown_kinds = true}, it.seed()), expected);
+}
+
 void longer_host(Examination& it) {
   skip_if_newer(it);
   const Outputs expected = alone(it, it.seed());
@@ -317,6 +329,9 @@ std::span<const CheckCase> trial_check_cases() {
       {"numbers/crowd", for_controllers | for_people | for_metrics,
        [](Examination& it) { rehearse_on(it, {.people = 1000, .is_large = true, .ticks = 2}); },
        "observation.h, pedestrian_model.h, sample.h: any number of agents and people", "have no arrays of fixed size"},
+      {"numbers/touching", for_controllers | for_people | for_metrics,
+       [](Examination& it) { rehearse_on(it, {.touching = true}); },
+       "observation.h, person.h: agents may be as near as they can", "divide by no distance between bodies"},
       {"numbers/goal_at_start", for_all, [](Examination& it) { rehearse_on(it, {.starts_at_goal = true}); },
        "path.h: a path may be one waypoint; a robot may stand at its goal",
        "take a path without a segment, and divide by no length that may be zero"},
@@ -331,6 +346,9 @@ std::span<const CheckCase> trial_check_cases() {
       {"growth/longer_structs", for_all, growth_cases::longer_structs,
        "abi.h: structs and array elements may be longer than the plugin knows",
        "access array elements with DMRP_AT, and compare no struct_size with =="},
+      {"growth/unknown_constants", for_controllers | for_metrics, growth_cases::unknown_constants,
+       "abi.h: constants are open lists: readers skip what they do not know",
+       "test for the kinds and flags that you know, and leave out the others"},
       {"growth/longer_host", for_all, growth_cases::longer_host,
        "abi.h: dmrp_host, parameters, sinks and extensions may be longer than the plugin knows",
        "access params->values with DMRP_AT, copy none of these structs, and compare no struct_size with =="},

@@ -12,7 +12,9 @@ trap 'rm -rf "$scratch"' EXIT
 failures=0
 for source in "$folder"/*.cpp; do
   name=$(basename "$source" .cpp)
-  "${CXX:-g++}" -std=c++17 -O2 -fPIC -shared -fvisibility=hidden -I "$include" "$source" -o "$scratch/$name.so" || exit 1
+  # They were written for draft 2 (docs/migration/from_draft_2.md).
+  sed 's/std::min<std::size_t>(o.released_waypoint, *path_.size()-1)/path_.size()-1/' "$source" >"$scratch/$name.cpp"
+  "${CXX:-g++}" -std=c++17 -O2 -fPIC -shared -fvisibility=hidden -I "$include" "$scratch/$name.cpp" -o "$scratch/$name.so" || exit 1
   status=0
   "$host" check "$scratch/$name.so" >"$scratch/out" || status=$?
   found=$(grep -cE '^  (warn|fail|crash) ' "$scratch/out")

@@ -151,6 +151,7 @@ class Planted : public Kind {
     if (has("is bound to its thread")) return 1e-3 * static_cast<double>(calls_of_thread);
     if (has("reads its address"))
       return 1e-12 * static_cast<double>(reinterpret_cast<std::uintptr_t>(this) >> 4 & 0xffff);
+    if (has("reads what it never set")) return unset_[0] > 0.0 ? 1e-3 : 0.0;
     if (has("fears distance") && far_) return std::nan("");
     if (has("fears headings") && headed_) return std::nan("");
     return 0.0;
@@ -163,6 +164,7 @@ class Planted : public Kind {
     while (instances > 1 && running < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
   }
 
+  std::unique_ptr<double[]> unset_{new double[1]};
   char* leaked_ = nullptr;
   const dmrp_world* first_world_ = nullptr;
   std::vector<std::string> kept_;
@@ -234,6 +236,10 @@ class Controller final : public Planted<dmrp::LocalController> {
     if (has("has room for 100") && now.agents.size() > 100) crash();
     for (int i = 0; i < 10; ++i)
       if (should_stop() && has("times out")) return Status::timeout;
+    if (has("divides by the gap") && now.agents.size() > 0) {
+      const double apart_m = std::hypot(now.agents[0].pose.x - now.pose.x, now.agents[0].pose.y - now.pose.y);
+      command.omega = std::log(apart_m - now.agents[0].radius_m - now.footprint.radius_m - 0.1);
+    }
     if (has("commands degrees")) command.omega = 90.0;
     if (has("reads beyond the agents")) command.omega = 0.0 * now.agents[now.agents.size()].radius_m;
     if (has("keeps an agent")) command.omega = kept_ ? 0.0 * kept_->radius_m : 0.0;
@@ -269,16 +275,19 @@ class Metric final : public Planted<dmrp::Metric> {
   void begin(const dmrp_plan* plan) override { has_plan_ = plan != nullptr; }
   void observe(const dmrp::Sample& sample) override {
     if (has("has room for 100") && sample.people.size() > 100) crash();
+    if (has("takes every contact"))
+      for (const dmrp::Contact& contact : sample.contacts) deepest_m_ = std::max(deepest_m_, contact.depth_m);
   }
   void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
     if (has("wants a plan") && !has_plan_) return;
     if (has("gives the undeclared")) sink.system("test_other", 0.0);
     if (has("gives infinity")) sink.system("test_check", 1.0 / number());
-    sink.system("test_check", *level + number());
+    sink.system("test_check", *level + deepest_m_ + number());
   }
 
  private:
   bool has_plan_ = false;
+  double deepest_m_ = 0.0;
 };
 
 }  // namespace

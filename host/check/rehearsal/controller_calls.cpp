@@ -63,10 +63,11 @@ class ControllerCalls {
   void set_path(std::uint32_t robot, const HandedPath& handed) {
     inputs_.clear();
     const auto& waypoints = handed.waypoints;
+    const std::uint32_t unknown_flag = stage_.settings.unknown_kinds ? 1u << 31 : 0;
     const dmrp_path path = {0, static_cast<std::uint32_t>(waypoints.size()), inputs_.stride<dmrp_waypoint>(),
-                            handed.flags, inputs_.array(waypoints.data(), waypoints.size())};
-    const dmrp_path_update* const update =
-        inputs_.one(dmrp_path_update{0, robot, ++revisions_[robot], inputs_.one(path), handed.update_flags, 0});
+                            handed.flags | unknown_flag, inputs_.array(waypoints.data(), waypoints.size())};
+    const dmrp_path_update* const update = inputs_.one(
+        dmrp_path_update{0, robot, ++revisions_[robot], inputs_.one(path), handed.update_flags | unknown_flag, 0});
     inputs_.seal();
     instance_.call("set_path", tick_, stage_budget_ns, Answers::no_other,
                    [&] { return table_.set_path(instance_.self(), update); });

@@ -39,6 +39,8 @@ class MetricCalls {
   }
 
  private:
+  static constexpr std::uint32_t unknown_kind = 1000;
+
   void begin() {
     if (plan_.exists()) c_plan_ = &grown_plan(plan_.view());
     const dmrp_metric_trial* const trial = plans_.one(dmrp_metric_trial{0, 0, c_plan_});
@@ -53,8 +55,9 @@ class MetricCalls {
     return grown;
   }
 
-  void observe(std::span<const dmrp_contact> contacts) {
+  void observe(std::span<const dmrp_contact> seen) {
     inputs_.clear();
+    std::vector<dmrp_contact> contacts(seen.begin(), seen.end());
     const core::World& world = stage_.world;
     std::vector<dmrp_robot_sample> robots;
     std::vector<dmrp_call> calls;
@@ -67,6 +70,10 @@ class MetricCalls {
       robots.push_back({robot.pose, robot.velocity, robot.command, robot.state, robot.goal_index, progress_m, 0.0,
                         robot.command, DMRP_OK, 0});
       if (!stage_.settings.fails_to_plan) calls.push_back({DMRP_CALL_CONTROL, i, DMRP_OK, 0, 1'000'000});
+    }
+    if (stage_.settings.unknown_kinds && robot_count_ > 0) {
+      calls.push_back({unknown_kind, 0, DMRP_OK, 0, 7'000'000'000});
+      contacts.push_back({unknown_kind, DMRP_CONTACT_BEGINS | DMRP_CONTACT_FAULT_A, 0, 0, 0.1, {0.0, 0.0}, 1.0});
     }
     const auto people = world.people();
     dmrp_sample sample{};
@@ -100,25 +107,31 @@ class MetricCalls {
     measurement_.observe(*grown);
   }
 
-  // Each robot begins as moving; then one event of each known kind, and one of a kind that nobody knows.
+  // Each robot begins as moving; then one event of each kind.
   std::vector<dmrp_robot_event> events_of(const core::World& world) const {
     std::vector<dmrp_robot_event> events;
     if (stage_.settings.fails_to_plan) return events;
     for (std::uint32_t i = 0; step_ == 0 && i < robot_count_; ++i)
       events.push_back({DMRP_ROBOT_EVENT_CLASS, i, world.t_ns(), DMRP_CLASS_MOVING, DMRP_NOBODY});
     const std::int64_t before_ns = world.t_ns() - stage_.variant.simulation.step_ns;
-    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_RUNS_ON + 1 && robot_count_ > 0)
+    if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_RUNS_ON && robot_count_ > 0)
       events.push_back({static_cast<std::uint32_t>(step_), 0, before_ns, 0, DMRP_NOBODY});
+    if (stage_.settings.unknown_kinds) events.push_back({unknown_kind, 0, world.t_ns(), 7, 0});
     return events;
   }
 
-  // One event of each known kind of one task of one errand, and one of a kind that nobody knows.
+  // One event of each kind of a task of one errand.
   std::vector<dmrp_task_event> task_events_of(const core::World& world) {
-    const auto kind = static_cast<std::uint32_t>(step_);
-    if (step_ == 0 || kind > DMRP_TASK_DONE + 1 || robot_count_ == 0 || stage_.settings.fails_to_plan) return {};
+    std::vector<dmrp_task_event> events;
+    if (stage_.settings.fails_to_plan || robot_count_ == 0) return events;
     const dmrp_goal errand = {world.robots()[0].pose, 0.2, 0.3, 0.1, 0};
-    const std::uint32_t robot = kind == DMRP_TASK_RELEASED ? DMRP_NOBODY : 0;
-    return {{world.t_ns(), 1, kind, robot, 0, 1, inputs_.stride<dmrp_goal>(), 0, inputs_.array(&errand, 1)}};
+    const auto add = [&](std::uint32_t kind, std::uint32_t robot) {
+      events.push_back({world.t_ns(), 1, kind, robot, 0, 1, inputs_.stride<dmrp_goal>(), 0, inputs_.array(&errand, 1)});
+    };
+    const auto kind = static_cast<std::uint32_t>(step_);
+    if (step_ > 0 && kind <= DMRP_TASK_DONE) add(kind, kind == DMRP_TASK_RELEASED ? DMRP_NOBODY : 0);
+    if (stage_.settings.unknown_kinds) add(unknown_kind, 0);
+    return events;
   }
 
   bool finish(Outputs& outputs) {

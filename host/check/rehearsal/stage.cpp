@@ -34,7 +34,7 @@ core::Scenario hall(const StageSettings& settings) {
     scenario.shapes.push_back(box("right shelf", {middle + 2.0, c + 8.1}, {middle + 4.0, c + 8.9}));
   }
   for (std::uint32_t i = 0; i < settings.robots; ++i) {
-    const double y = c + 1.5 + 2.0 * i;
+    const double y = c + 1.5 + (settings.touching ? 2.0 * core::RobotSettings{}.radius_m + 0.01 : 2.0) * i;
     core::RobotTask task;
     task.name = "robot " + std::to_string(i);
     task.start = {c + 1.5, y, 0.0};

@@ -21,6 +21,8 @@ struct StageSettings {
   bool is_large = false;     // 60 x 50 m instead of 16 x 12 m
   bool goals_have_headings = false;
   bool starts_at_goal = false;              // the first robot; its path is one waypoint
+  bool touching = false;                    // robots start 1 cm apart
+  bool unknown_kinds = false;               // constants that no header has, where readers skip what they do not know
   bool by_waypoint = false;                 // controllers get one waypoint at a time
   bool walled_off = false;                  // a wall between the robots and their goals; nobody walks
   bool offers_extensions = true;            // those that plugins use; required ones are there anyway
