@@ -114,6 +114,14 @@ struct RecoverySettings {
   double backup_speed = 0.05;  // m/s
 };
 
+enum class Route { path, around };  // around: the path is led around what stands on it (local_route.hpp)
+
+// What robots do for their controllers.
+struct NavigationSettings {
+  Route route = Route::path;
+  bool monitor = false;  // collision_monitor.hpp
+};
+
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
@@ -131,6 +139,7 @@ struct SimulationSettings {
   Execution execution = Execution::free;
   ReplanSettings replan;
   RecoverySettings recovery;
+  NavigationSettings navigation;
   bool oscillation_fails = false;  // a robot that circled on its way has failed even if it arrives
 };
 

@@ -192,6 +192,7 @@ TomlKeys root_keys() {
                     {"scenario"},
                     {"simulation"},
                     {"recovery"},
+                    {"navigation"},
                     {"ending"},
                     {"robot"},
                     {"robot_type"},

@@ -14,10 +14,11 @@ namespace dmrp::host {
 namespace {
 
 constexpr std::size_t max_points = 1000;
-constexpr const char* swept_tables[] = {"simulation", "recovery", "robot"};
+constexpr const char* swept_tables[] = {"simulation", "recovery", "navigation", "robot"};
 
 Settings settings_of(SettingsPoint& point, const std::string& table) {
   if (table == "simulation") return simulation_settings(point.simulation);
+  if (table == "navigation") return navigation_settings(point.simulation.navigation);
   return table == "recovery" ? recovery_settings(point.simulation.recovery) : robot_values(point.robot);
 }
 

@@ -132,6 +132,10 @@ Settings recovery_settings(core::RecoverySettings& to) {
           positive("backup_speed", to.backup_speed, 100.0)};
 }
 
+Settings navigation_settings(core::NavigationSettings& to) {
+  return {choice("route", to.route, {"path", "around"}), boolean("monitor", to.monitor)};
+}
+
 namespace {
 
 void read_simulation(const TomlTable& table, Experiment& experiment) {
@@ -143,8 +147,9 @@ void read_simulation(const TomlTable& table, Experiment& experiment) {
   check_simulation(table, simulation);
 }
 
-void read_recovery(const TomlTable& table, core::RecoverySettings& recovery) {
-  std::vector<TomlTable::KeyReader> readers = readers_of(recovery_settings(recovery));
+// A table whose keys may be swept.
+void read_swept(const TomlTable& table, const Settings& settings) {
+  std::vector<TomlTable::KeyReader> readers = readers_of(settings);
   readers.emplace_back("sweep", [](const TomlValue& sweep) { sweep.table(); });
   table.read(readers);
 }
@@ -227,7 +232,12 @@ void read_world_settings(const TomlTable& root, Experiment& experiment) {
     if (const auto table = root.find_table("simulation")) read_simulation(*table, experiment);
   });
   mistakes.attempt([&] {
-    if (const auto table = root.find_table("recovery")) read_recovery(*table, experiment.simulation.recovery);
+    if (const auto table = root.find_table("recovery"))
+      read_swept(*table, recovery_settings(experiment.simulation.recovery));
+  });
+  mistakes.attempt([&] {
+    if (const auto table = root.find_table("navigation"))
+      read_swept(*table, navigation_settings(experiment.simulation.navigation));
   });
   mistakes.attempt([&] {
     if (const auto table = root.find_table("ending")) table->read(readers_of(ending_settings(experiment.simulation)));
@@ -259,13 +269,15 @@ std::vector<TomlKeys> settings_keys() {
   Experiment unused;
   std::vector<TomlKeys> keys = {keys_of("[simulation]", simulation_settings(unused.simulation)),
                                 keys_of("[recovery]", recovery_settings(unused.simulation.recovery)),
+                                keys_of("[navigation]", navigation_settings(unused.simulation.navigation)),
                                 keys_of("[ending]", ending_settings(unused.simulation)),
                                 keys_of("[record]", record_settings(unused)),
                                 keys_of("[benchmark]", benchmark_settings(unused)),
                                 keys_of("[limits]", limits_settings(unused.limits))};
   for (TomlKeys& table : robot_table_keys("[robot")) keys.push_back(std::move(table));
   for (TomlKeys& table : keys)
-    if (table.title == "[simulation]" || table.title == "[recovery]" || table.title == "[robot]")
+    if (table.title == "[simulation]" || table.title == "[recovery]" || table.title == "[navigation]" ||
+        table.title == "[robot]")
       table.keys.push_back({"sweep", "", "{}"});
   return keys;
 }
@@ -292,10 +304,12 @@ std::string settings_text(const Experiment& experiment) {
     std::erase_if(simulation, [](const Setting& setting) { return setting.key == "time_limit_s"; });
   const std::string recovery =
       "\n[recovery]\n" + lines_of(recovery_settings(copy.simulation.recovery), 26) + sweep_text(experiment, "recovery");
+  const std::string navigation = "\n[navigation]\n" + lines_of(navigation_settings(copy.simulation.navigation), 9) +
+                                 sweep_text(experiment, "navigation");
   std::string robots = "\n[robot]\n" + robot_text(experiment.robot) + sweep_text(experiment, "robot");
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
-  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + robots +
+  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + navigation + robots +
          "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
          lines_of(record_settings(copy), 11) + "\n[benchmark]\n" + lines_of(benchmark_settings(copy), 15) +
          "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// settings_tables.hpp: the tables [simulation], [recovery], [ending], [robot], [record], [benchmark] and
-// [limits] of an experiment file: one list of keys for reading and writing.
+// settings_tables.hpp: the tables [simulation], [recovery], [navigation], [ending], [robot], [record],
+// [benchmark] and [limits] of an experiment file: one list of keys for reading and writing.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-// Reads [simulation], [recovery], [ending], [robot] and [robot_type.NAME]. Throws InputError.
+// Reads [simulation], [recovery], [navigation], [ending], [robot] and [robot_type.NAME]. Throws InputError.
 void read_world_settings(const TomlTable& root, Experiment& experiment);
 
 // Reads [record], [benchmark] and [limits]. Throws InputError.
@@ -20,6 +20,7 @@ void read_run_settings(const TomlTable& root, Experiment& experiment);
 
 Settings simulation_settings(core::SimulationSettings& to);
 Settings recovery_settings(core::RecoverySettings& to);
+Settings navigation_settings(core::NavigationSettings& to);
 
 // Refuses settings that do not fit together, at their keys in `table`. Throws InputError.
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation);

@@ -13,7 +13,7 @@ namespace dmrp::host {
 namespace {
 
 constexpr const char* kinds[] = {"global_planner", "local_controller", "pedestrian_model"};
-constexpr const char* settings_tables[] = {"simulation", "recovery", "ending", "robot", "limits"};
+constexpr const char* settings_tables[] = {"simulation", "recovery", "navigation", "ending", "robot", "limits"};
 
 const std::string& label_of(const CombinationLabels& combination, std::string_view kind) {
   if (kind == "global_planner") return combination.global_planner;
