@@ -309,8 +309,8 @@ std::string settings_text(const Experiment& experiment) {
   std::string robots = "\n[robot]\n" + robot_text(experiment.robot) + sweep_text(experiment, "robot");
   for (const core::RobotSettings& type : experiment.robot_types)
     robots += "\n[robot_type." + toml_key(type.type) + "]\n" + robot_text(type);
-  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + navigation + robots +
-         "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
+  return "\n[simulation]\n" + lines_of(simulation, 26) + sweep_text(experiment, "simulation") + recovery + navigation +
+         robots + "\n[ending]\n" + lines_of(ending_settings(copy.simulation), 12) + "\n[record]\n" +
          lines_of(record_settings(copy), 11) + "\n[benchmark]\n" + lines_of(benchmark_settings(copy), 15) +
          "\n[limits]\n" + lines_of(limits_settings(copy.limits), 17);
 }
