@@ -12,6 +12,7 @@
 #include "core/execution/replanning.hpp"
 #include "core/world/world.hpp"
 #include "host/trial/dispatcher.hpp"
+#include "host/trial/navigator.hpp"
 
 namespace dmrp::host {
 
@@ -47,6 +48,7 @@ class Run {
                  {can_replan(settings_) ? nullptr : trial.first_plan.given, trial.first_plan.on_made}),
         trace_(trace),
         dispatcher_(trial.variant, world_),
+        navigator_(navigator_of(trial.variant)),
         referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)},
                  trial.seed),
         replanning_(settings_.replan, world_.robots().size()),
@@ -142,12 +144,30 @@ class Run {
     plugins_.sense();
     driven_.clear();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i)
-      if (!recovers(i) && is_active(i)) driven_.push_back({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)});
+      if (!recovers(i) && is_active(i))
+        driven_.push_back(led({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)}));
     answers_ = plugins_.control(driven_, step_);
     for (std::size_t i = 0; i < driven_.size(); ++i) drive(driven_[i].robot, answers_[i].command);
   }
 
+  // With the local route in place of the dispatcher's path, if robots have one.
+  TrialPlugins::DrivenRobot led(TrialPlugins::DrivenRobot robot) {
+    if (!navigator_) return robot;
+    const Navigator::Led led =
+        navigator_->lead(robot.robot, robot.guidance, robot.new_path, plugins_.sensors(robot.robot));
+    if (led.is_anew) note(DMRP_ROBOT_EVENT_ROUTE, robot.robot, 0);
+    return {robot.robot, led.guidance, led.path};
+  }
+
   bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
+
+  // A single waypoint is led nowhere.
+  std::optional<Navigator> navigator_of(const VariantWorld& variant) {
+    if (settings_.navigation.route == core::LocalRoute::path || settings_.dispatch == core::Dispatch::waypoint)
+      return std::nullopt;
+    for (std::uint32_t i = 0; i < world_.robots().size(); ++i) plugins_.sensors(i).subscribe_to_costmap();
+    return Navigator(variant, world_);
+  }
 
   std::vector<bool> robots_with_costmap() const {
     std::vector<bool> robots;
@@ -276,6 +296,7 @@ class Run {
   TrialPlugins plugins_;
   core::TraceEncoder& trace_;
   Dispatcher dispatcher_;
+  std::optional<Navigator> navigator_;  // none: controllers get the dispatcher's paths
   core::Referee referee_;
   core::ReplanMonitor replanning_;
   core::RecoveryLadder recoveries_;

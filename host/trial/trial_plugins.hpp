@@ -78,6 +78,9 @@ class TrialPlugins {
   // The trial has ended without a fault.
   void end_trial(const dmrp_trial_end& end, std::int64_t step);
 
+  // The sensors of a robot that has a controller.
+  RobotSensors& sensors(std::uint32_t robot) { return *controllers_[robot].sensors; }
+
   // Whether the robot has a costmap, which remembers; and makes it forget.
   bool has_costmap(std::uint32_t robot) const { return controllers_[robot].sensors->has_costmap(); }
   void clear_costmap(std::uint32_t robot) { controllers_[robot].sensors->clear_costmap(); }

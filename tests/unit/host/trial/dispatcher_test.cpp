@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dispatch by waypoint, replanning and ordered execution in whole trials. The plugins (dispatch_plugins.cpp) check their
+// Dispatch by waypoint, replanning, ordered execution and local routes in whole trials. The plugins (dispatch_plugins.cpp) check their
 // inputs; the planner of the crowded halls is a real one.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -565,4 +565,46 @@ TEST_CASE("a robot that gives way at its goal is not parked in another's way") {
   const dmrp_trial_end& end = *stage.reader->end();
   CHECK(end.ending == DMRP_ENDING_ARRIVED);
   CHECK(DMRP_AT(dmrp_robot_end, end.robots, end.robot_stride, 0)->visits == 2);
+}
+
+TEST_CASE("a path is led around a robot that stands on it") {
+  core::Scenario scenario = lanes({10.5});
+  scenario.upper.y = 4.0;
+  scenario.robots.push_back({"stands", {6.0, 1.5, 0.0}, {{6.0, 1.5, any_heading}}});
+  Stage stage(scenario);
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.individual")};
+  CHECK_FALSE(stage.run());
+
+  stage.experiment.simulation.navigation.route = core::LocalRoute::around;
+  CHECK(stage.run());
+  std::uint32_t contacts = 0, led = 0;
+  double beside_m = 0.0;
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    contacts += sample->contact_count;
+    for (std::uint32_t i = 0; i < sample->event_count; ++i) led += sample->events[i].kind == DMRP_ROBOT_EVENT_ROUTE;
+    beside_m = std::max(beside_m, std::abs(robot_of(*sample, 0).pose.y - 1.5));
+  }
+  CHECK(contacts == 0);
+  CHECK(led > 0);
+  CHECK(led < 10);  // a way past something is kept
+  CHECK(beside_m < 1.0);
+}
+
+TEST_CASE("two robots that come toward each other both keep right") {
+  core::Scenario scenario = lanes({10.5});
+  scenario.upper.y = 4.0;
+  scenario.robots[0].start.y = scenario.robots[0].goals[0].y = 2.0;
+  scenario.robots.push_back({"back", {10.5, 2.0, dmrp::toolkit::pi}, {{1.5, 2.0, any_heading}}});
+  Stage stage(scenario);
+  stage.add_library(DMRP_PLUGIN_DIR "/libdmrp_planners.so");
+  stage.experiment.global_planners = {stage.use("dmrp.planner.individual")};
+  stage.experiment.simulation.tracking = core::Tracking::visible;
+  stage.experiment.simulation.navigation.route = core::LocalRoute::around;
+  CHECK(stage.run());
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    CHECK(sample->contact_count == 0);
+    const dmrp_pose a = robot_of(*sample, 0).pose, b = robot_of(*sample, 1).pose;
+    if (std::abs(a.x - b.x) < 0.3) CHECK(b.y - a.y > 0.5);
+  }
 }
