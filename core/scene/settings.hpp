@@ -114,11 +114,11 @@ struct RecoverySettings {
   double backup_speed = 0.05;  // m/s
 };
 
-enum class Route { path, around };  // around: the path is led around what stands on it (local_route.hpp)
+enum class LocalRoute { path, around };  // around: the path is led around what stands on it
 
 // What robots do for their controllers.
 struct NavigationSettings {
-  Route route = Route::path;
+  LocalRoute route = LocalRoute::path;
   bool monitor = false;  // collision_monitor.hpp
 };
 
