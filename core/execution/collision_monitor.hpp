@@ -15,7 +15,8 @@
 
 namespace dmrp::core {
 
-// The gap that the monitor keeps, m. More than what a pose is off between two tests, less than what a robot of 0.25 m
+// The gap that the monitor keeps, m. More than what a robot comes nearer between two tested poses: of 5400 random drives
+// among what stands, none touched it; at 0.005 one of the first 360 did. Less than the 0.025 m that a robot of 0.25 m
 // radius has to either side in a door of 0.55 m.
 inline constexpr double monitor_gap_m = 0.01;
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/execution/sensed_bodies.hpp"
 #include "core/scene/footprint.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
@@ -80,6 +81,12 @@ std::span<const dmrp_contact> step(World& world) {
   return world.step(std::vector<dmrp_vec2>(world.people().size()));
 }
 
+double gap_to_person(const World& world, std::size_t person) {
+  const dmrp_agent& agent = world.person_agents()[person];
+  return gap_between(body_of(world.robot_settings(0), world.robots()[0].pose),
+                     {toolkit::position(agent.pose), agent.radius_m, {}});
+}
+
 SimulationSettings with_latency(RobotSettings& type, bool is_late) {
   SimulationSettings settings;
   settings.control_latency_ns = is_late ? 100'000'000 : 0;
@@ -129,11 +136,11 @@ TEST_CASE("whatever a controller commands, its robot touches nothing that stands
         if (is_control_tick(world)) tick(world, driver.command());
         for (const dmrp_contact& contact : step(world)) {
           INFO("kind " << contact.kind << " with " << contact.b << " at " << world.t_ns());
-          REQUIRE_FALSE(is_of_robot_0(contact));
+          CHECK_FALSE(is_of_robot_0(contact));
         }
         driven_m += 0.02 * std::hypot(world.robots()[0].velocity.v_x, world.robots()[0].velocity.v_y);
       }
-      CHECK(driven_m > 0.2);
+      CHECK(driven_m > 0.1);
     }
 }
 
@@ -156,19 +163,24 @@ TEST_CASE("a robot that people walk into stands when they touch") {
       World world(scenario, type, settings, geometry_of(scenario), 1);
       RandomDriver driver(stream);
       INFO("type " << i << ", run " << run);
-      while (world.t_ns() < minute_ns / 6) {
-        if (is_control_tick(world)) tick(world, driver.command());
+      std::vector<bool> was_near(scenario.tracks.size());  // at the last control tick: the robot may leave it
+      for (bool touches = false; !touches && world.t_ns() < minute_ns / 6;) {  // contact disturbs the robot's motion
+        if (is_control_tick(world)) {
+          for (std::size_t person = 0; person < was_near.size(); ++person)
+            was_near[person] = gap_to_person(world, person) < monitor_gap_m;
+          tick(world, driver.command());
+        }
         const double speed = std::hypot(world.robots()[0].velocity.v_x, world.robots()[0].velocity.v_y);
         for (const dmrp_contact& contact : step(world)) {
-          if (contact.kind != DMRP_CONTACT_PERSON) continue;
-          if (!(contact.flags & DMRP_CONTACT_BEGINS)) continue;
+          touches = true;
+          if (was_near[contact.b]) continue;
           INFO("person " << contact.b << " at " << world.t_ns());
           CHECK(speed <= 0.05);
           ++touched;
         }
       }
     }
-  CHECK(touched > draws(100));
+  CHECK(touched > draws(150));
 }
 
 TEST_CASE("a command that is safe is left as it is, to the bit") {
