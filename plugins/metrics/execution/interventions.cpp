@@ -76,7 +76,7 @@ void Interventions::finish(const TrialEnd&, MetricSink& sink) {
   }
   std::vector<double> durations_s;
   for (std::size_t robot = 0; robot < counts_.size(); ++robot)
-    durations_s.push_back(std::isnan(counts_[robot]) ? undefined : 1e-9 * static_cast<double>(durations_ns[robot]));
+    durations_s.push_back(std::isnan(counts_[robot]) ? undefined : static_cast<double>(durations_ns[robot]) / 1e9);
   give(sink, "interventions", counts_, &sum_of_defined);
   give(sink, "intervention_time", durations_s, &sum_of_defined);
 }
