@@ -134,6 +134,13 @@ dmrp_twist World::take_command(std::uint32_t robot, const dmrp_twist& command) {
   return state.command;
 }
 
+dmrp_twist World::command_at(std::uint32_t robot, std::int64_t t_ns) const {
+  dmrp_twist command = robots_[robot].command;
+  for (const PendingCommand& pending : pending_commands_[robot])
+    if (pending.from_ns <= t_ns) command = pending.command;
+  return command;
+}
+
 // Brakes without latency: the base does this itself.
 void World::stop(std::uint32_t robot) {
   robots_[robot].command = {};

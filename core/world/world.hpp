@@ -80,6 +80,14 @@ class World {
   // As set_command(); the robot may drive backwards as fast as its type allows in a recovery, until the next command.
   dmrp_twist set_recovery_command(std::uint32_t robot, const dmrp_twist& command);
 
+  // From a command to its effect.
+  std::int64_t command_latency_ns(std::uint32_t robot) const {
+    return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
+  }
+
+  // The command that is in effect at this time, now or later, if no other one is set.
+  dmrp_twist command_at(std::uint32_t robot, std::int64_t t_ns) const;
+
   // The next goal of an active robot, which it has, becomes current.
   void visit(std::uint32_t robot);
 
@@ -104,9 +112,6 @@ class World {
     dmrp_twist command;
   };
 
-  std::int64_t command_latency_ns(std::uint32_t robot) const {
-    return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
-  }
   dmrp_twist take_command(std::uint32_t robot, const dmrp_twist& command);
   void stop(std::uint32_t robot);
   void apply_due_commands();

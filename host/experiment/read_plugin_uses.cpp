@@ -213,10 +213,11 @@ void read_fallback_planners(const TomlTable& root, bool all_libraries, Experimen
   }
 }
 
-// Whether robots of a scenario have recoveries.
-static bool has_recoveries(const Experiment& experiment) {
+// Whether robots of a scenario do something by themselves: recover, or brake where the collision monitor says so.
+static bool robots_act_alone(const Experiment& experiment) {
   return std::any_of(experiment.scenarios.begin(), experiment.scenarios.end(), [&](const ScenarioVariant& variant) {
-    return simulation_of(experiment, variant).recovery.retries > 0;
+    const core::SimulationSettings& settings = simulation_of(experiment, variant);
+    return settings.recovery.retries > 0 || settings.navigation.monitor;
   });
 }
 
@@ -224,7 +225,7 @@ void use_every_metric(const TomlValue& at, Experiment& experiment) {
   for (std::uint32_t i = 0; i < experiment.libraries.size(); ++i)
     for (const PluginInfo& info : experiment.libraries[i].plugins) {
       if (info.kind != DMRP_KIND_METRIC) continue;
-      if ((info.channels & DMRP_CHANNEL_RECOVERIES) && !has_recoveries(experiment)) continue;
+      if ((info.channels & DMRP_CHANNEL_RECOVERIES) && !robots_act_alone(experiment)) continue;
       check_extensions(at, info);
       PluginUse use;
       use.library = i;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/execution/collision_monitor.hpp"
 #include "core/execution/recovery.hpp"
 #include "core/execution/referee.hpp"
 #include "core/execution/replanning.hpp"
@@ -202,10 +203,18 @@ class Run {
     events_.push_back({kind, robot, world_.t_ns(), detail, DMRP_NOBODY});
   }
 
+  // What the collision monitor leaves of the command.
+  dmrp_twist monitored(std::uint32_t robot, const dmrp_twist& command) {
+    if (!settings_.navigation.monitor) return command;
+    const core::MonitoredCommand left = core::monitored(world_, robot, command);
+    if (left.percent < 100) note(DMRP_ROBOT_EVENT_MONITOR, robot, left.percent);
+    return left.command;
+  }
+
   // Without a command the robot brakes.
   void drive(std::uint32_t robot, const std::optional<dmrp_twist>& command) {
     const std::uint64_t clipped_before = world_.robots()[robot].clipped_commands;
-    world_.set_command(robot, command.value_or(dmrp_twist{0.0, 0.0, 0.0}));
+    world_.set_command(robot, command ? monitored(robot, *command) : dmrp_twist{0.0, 0.0, 0.0});
     if (world_.robots()[robot].clipped_commands > clipped_before) note(DMRP_ROBOT_EVENT_CLIPPED, robot, 0);
     if (command) referee_.command_given(robot);
     recoveries_.controller_answered(robot, command.has_value());

@@ -3,6 +3,7 @@
 #include "metrics/compute/compute_time.hpp"
 #include "metrics/execution/clipped_commands.hpp"
 #include "metrics/execution/idle_time.hpp"
+#include "metrics/execution/interventions.hpp"
 #include "metrics/execution/recoveries.hpp"
 #include "metrics/execution/smoothness.hpp"
 #include "metrics/interaction/blocked_time.hpp"
@@ -46,4 +47,4 @@ DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::P
              dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics, dmrp::metrics::GroupIntrusion,
              dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress, dmrp::metrics::Smoothness,
              dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands, dmrp::metrics::Recoveries,
-             dmrp::metrics::ComputeTime)
+             dmrp::metrics::Interventions, dmrp::metrics::ComputeTime)

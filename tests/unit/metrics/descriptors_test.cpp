@@ -178,6 +178,8 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                        {"idle_time", "s"},
                                                        {"clipped_commands", "1"},
                                                        {"recoveries", "1"},
+                                                       {"interventions", "1"},
+                                                       {"intervention_time", "s"},
                                                        {"plan_call_mean", "ms"},
                                                        {"plan_call_p99", "ms"},
                                                        {"plan_missed", "%"},

@@ -202,3 +202,50 @@ TEST_CASE("recoveries are counted by robot, and each is an event with its steps"
   CHECK(m.events[1].to_s == 20.0);
   CHECK(m.events[1].text == "robot 1 recovers: step 77");
 }
+
+TEST_CASE("interventions are runs of reduced commands, and each is an event") {
+  const auto reduced = [](std::uint32_t robot, std::int64_t tick, std::uint32_t percent) {
+    return dmrp_robot_event{DMRP_ROBOT_EVENT_MONITOR, robot, (tick - 1) * 1'000'000'000, percent, DMRP_NOBODY};
+  };
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}}, {{0, 0}}});
+  for (int i = 0; i <= 20; ++i) {  // a control tick a second
+    std::vector<dmrp_robot_event> events = {becomes(0, DMRP_CLASS_SETTLING)};
+    if (i == 4) events.push_back(reduced(1, i, 50));
+    if (i == 5) events.push_back(reduced(1, i, 0));
+    if (i == 6) events.push_back(reduced(1, i, 75));
+    if (i == 9) events.push_back(reduced(1, i, 25));
+    if (i == 20) events.push_back(reduced(1, i, 75));
+    trial.sample(i, {at(0, 0), at(2, 1)}).events(events);
+  }
+  trial.end(20.0, {never, never});
+  const Measurement m = measure("dmrp.metric.interventions", trial);
+  CHECK(m.robot("interventions", 0) == 0.0);
+  CHECK(m.robot("interventions", 1) == 3.0);
+  CHECK(m.system("interventions") == 3.0);
+  CHECK(m.robot("intervention_time", 0) == 0.0);
+  CHECK(m.robot("intervention_time", 1) == 5.0);
+  CHECK(m.system("intervention_time") == 5.0);
+  REQUIRE(m.events.size() == 3);
+  CHECK(m.events[0].from_s == 3.0);
+  CHECK(m.events[0].to_s == 6.0);
+  CHECK(m.events[0].text == "the collision monitor leaves robot 1 0 % of its command");
+  CHECK(m.events[1].from_s == 8.0);
+  CHECK(m.events[1].to_s == 9.0);
+  CHECK(m.events[2].to_s == 20.0);
+}
+
+TEST_CASE("an intervention lasts until the next control tick") {
+  SyntheticTrial trial(1);
+  trial.plan({{{0, 0}}});
+  trial.sample(0.0, {at(0, 0)});
+  for (int i = 1; i <= 8; ++i) {  // a control tick every four samples
+    trial.sample(i, {at(0, 0)});
+    if (i == 1) trial.events({{DMRP_ROBOT_EVENT_MONITOR, 0, 0, 25, DMRP_NOBODY}});
+    if (i % 4 != 0) trial.without_control();
+  }
+  trial.end(8.0, {never});
+  const Measurement m = measure("dmrp.metric.interventions", trial);
+  CHECK(m.system("interventions") == 1.0);
+  CHECK(m.system("intervention_time") == 4.0);
+}
