@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The collision monitor behind a controller that ignores people. Called as: navigation.sh DMRP_HOST
+# The collision monitor behind a controller that ignores people, and local routes of one that follows its path. Called as: navigation.sh DMRP_HOST
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 cat >"$scratch/monitor.toml" <<EOT
@@ -48,3 +48,45 @@ of_first="SELECT metric, subject_kind, subject, quote(value) FROM value JOIN met
   AND wall_clock = 0 AND metric NOT IN ('interventions', 'intervention_time', 'recoveries') ORDER BY 1, 2, 3, 4"
 [[ $(query "$scratch/without" "$of_first") == "$(query "$scratch/one" "$of_first")" ]] ||
   fail "a monitor that is off should change nothing"
+
+# --- local routes: around a robot that stands in the way
+mkdir "$scratch/standing"
+cat >"$scratch/standing/scenario.toml" <<EOT
+[scenario]
+name = "standing"
+title = "Standing"
+description = "a robot stands on the path of another"
+size_m = [12.0, 4.0]
+time_limit_s = 60.0
+[[robot]]
+name = "drives"
+start = [1.5, 1.5, 0.0]
+goal = [10.5, 1.5]
+[[robot]]
+name = "stands"
+start = [6.0, 1.5, 0.0]
+goal = [6.0, 1.5]
+EOT
+cat >"$scratch/route.toml" <<EOT
+[experiment]
+name = "route"
+seed = 4
+trials = 1
+plugins = ["libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians.so", "libdmrp_metrics.so"]
+[[scenario]]
+use = "./standing/scenario.toml"
+[[global_planner]]
+use = "dmrp.planner.individual"
+[[local_controller]]
+use = "dmrp.controller.pure_pursuit"
+[[pedestrian_model]]
+use = "dmrp.pedestrian.social_force"
+[navigation]
+sweep = { route = ["path", "around"], monitor = [false, true] }
+EOT
+expect_status 0 "$host" "$scratch/route.toml" --quiet --jobs 1 --out "$scratch/route_one"
+expect_status 0 "$host" "$scratch/route.toml" --quiet --jobs 2 --out "$scratch/route_two"
+[[ $(values_of "$scratch/route_one") == "$(values_of "$scratch/route_two")" ]] || fail "--jobs should change no bit"
+outcomes=$(query "$scratch/route_one" "SELECT group_concat(value || ':' || outcome, ' ') FROM (SELECT swept.value, outcome
+  FROM trial JOIN swept ON trial_id = trial.id WHERE key = 'route' ORDER BY trial.id)")
+[[ $outcomes == "path:failed path:failed around:succeeded around:succeeded" ]] || fail "routes: $outcomes"
