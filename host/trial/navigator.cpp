@@ -63,25 +63,26 @@ std::function<bool(dmrp_vec2)> Navigator::cells_of(const Route& route) const {
 }
 
 // The farthest place of the base that the robot sees.
-double Navigator::far_m(const Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m) {
+double Navigator::far_m(const Route& route, const Sight& sight) {
   const double end_m = route.base_arcs.back();
-  double far_m = base_m;
+  double far_m = sight.base_m;
   while (far_m < end_m) {
     const double next_m = std::min(far_m + step_m, end_m);
-    const dmrp_vec2 off = toolkit::point_at(route.base, route.base_arcs, next_m) - here;
-    if (std::max(std::abs(off.x), std::abs(off.y)) > map.reach_m() - border_m) break;
+    const dmrp_vec2 off = toolkit::point_at(route.base, route.base_arcs, next_m) - sight.here;
+    if (std::max(std::abs(off.x), std::abs(off.y)) > sight.reach_m) break;
     far_m = next_m;
   }
   return far_m;
 }
 
 // Leads from here to the last free place of the base up to `to_m`, past its first block; false if nothing leads there.
-bool Navigator::lead_past(Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m, double to_m) const {
+bool Navigator::lead_past(Route& route, const core::RouteMap& map, const Sight& sight, double to_m) const {
+  const double base_m = sight.base_m;
   const Block block = first_block(map, route.base, base_m, to_m);
   double rejoin_m = to_m;
   while (rejoin_m > base_m && first_block(map, route.base, rejoin_m, rejoin_m).exists) rejoin_m -= step_m;
   if (rejoin_m <= base_m || (block.exists && rejoin_m < block.arc_m)) return false;
-  const auto way = map.way(here, toolkit::point_at(route.base, route.base_arcs, rejoin_m), cells_of(route));
+  const auto way = map.way(sight.here, toolkit::point_at(route.base, route.base_arcs, rejoin_m), cells_of(route));
   if (!way) return false;
   const std::vector<double> arcs = toolkit::arc_lengths(*way);
   route.path.clear();
@@ -97,11 +98,11 @@ bool Navigator::lead_past(Route& route, const core::RouteMap& map, dmrp_vec2 her
 }
 
 // Ends before that arc length of the base.
-void Navigator::stop_before(Route& route, dmrp_vec2 here, double base_m, double block_m) const {
-  const double end_m = std::max(base_m, block_m - stop_m);
+void Navigator::stop_before(Route& route, const Sight& sight, double block_m) const {
+  const double base_m = sight.base_m, end_m = std::max(base_m, block_m - stop_m);
   const auto first = std::upper_bound(route.base_arcs.begin(), route.base_arcs.end(), base_m);
   const auto last = std::lower_bound(first, route.base_arcs.end(), end_m);
-  route.path = {waypoint_at(route, here, base_m)};
+  route.path = {waypoint_at(route, sight.here, base_m)};
   route.path.insert(route.path.end(), route.base.begin() + (first - route.base_arcs.begin()),
                     route.base.begin() + (last - route.base_arcs.begin()));
   route.path.push_back(waypoint_at(route, toolkit::point_at(route.base, route.base_arcs, end_m), end_m));
@@ -109,19 +110,50 @@ void Navigator::stop_before(Route& route, dmrp_vec2 here, double base_m, double 
   route.flags = route.base_flags | DMRP_PATH_PARTIAL;
 }
 
-// Where no way leads past those who come, the base holds, and ends only before what stands.
-Navigator::Kind Navigator::make(Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m,
-                                bool is_on_base) const {
-  const double to_m = far_m(route, map, here, base_m);
-  if (lead_past(route, map, here, base_m, to_m)) return Kind::past;
-  const core::RouteMap standing = map.of_what_stands();
-  const Block block = first_block(standing, route.base, base_m, to_m);
-  if (!block.exists && is_on_base) return Kind::base;
-  if (lead_past(route, standing, here, base_m, to_m)) return Kind::past;
+// Where no way leads past those who come, the base holds; it ends before its end only if something stands there.
+Navigator::Kind Navigator::make(Route& route, const Sight& sight) const {
+  const double to_m = far_m(route, sight);
+  if (lead_past(route, sight.map, sight, to_m)) return Kind::past;
+  const core::RouteMap standing = sight.map.of_what_stands();
+  const Block block = first_block(standing, route.base, sight.base_m, to_m);
+  if (!block.exists && sight.is_on_base) return Kind::base;
+  if (lead_past(route, standing, sight, to_m)) return Kind::past;
   const bool ends_there = to_m == route.base_arcs.back() && first_block(standing, route.base, to_m, to_m).exists;
   if (!block.exists || !ends_there) return Kind::base;
-  stop_before(route, here, base_m, block.arc_m);
+  stop_before(route, sight, block.arc_m);
   return Kind::stop;
+}
+
+Navigator::Sight Navigator::look(const Route& route, std::uint32_t robot, double base_m, RobotSensors& sensors) const {
+  const dmrp_pose& pose = sensors.odometry().pose();
+  const dmrp_vec2 here = toolkit::position(pose);
+  const dmrp_vec2 ahead = toolkit::point_at(route.base, route.base_arcs, base_m + 1.0);
+  const dmrp_vec2 direction = ahead == here ? toolkit::from_angle(pose.theta) : toolkit::normalized(ahead - here);
+  const bool ordered = variant_.simulation.execution == core::Execution::ordered;
+  const core::RouteMap map({sensors.costmap(), sensors.agents(), pose, direction, ordered},
+                           world_.robot_settings(robot));
+  const double off_m = toolkit::distance(here, toolkit::point_at(route.base, route.base_arcs, base_m));
+  return {map, here, base_m, map.reach_m() - border_m, off_m < variant_.planning_grid.view().resolution_m};
+}
+
+// Chooses what the controller is to have; whether `path` was made for it.
+bool Navigator::decide(Route& route, const Sight& sight, bool base_is_new) const {
+  const double base_m = sight.base_m, led_m = route.progress.progress_m();
+  if (sight.is_on_base && !first_block(sight.map, route.base, base_m, base_m + sight.reach_m).exists) {
+    route.kind = Kind::base;
+    route.was_blocked = false;
+    return false;
+  }
+  const bool is_blocked =
+      route.kind == Kind::base || first_block(sight.map, route.path, led_m, led_m + sight.reach_m).exists;
+  const bool leads_past = route.kind == Kind::past && !is_blocked && route.progress.waypoint() < route.rejoins;
+  const bool is_due = world_.t_ns() >= route.made_ns + made_again_ns && !leads_past;
+  const bool was_blocked = std::exchange(route.was_blocked, is_blocked);
+  const bool became_blocked = is_blocked && !was_blocked;
+  if (!became_blocked && !base_is_new && !is_due) return false;
+  route.kind = make(route, sight);
+  route.made_ns = world_.t_ns();
+  return route.kind != Kind::base;
 }
 
 Navigator::Led Navigator::lead(std::uint32_t robot, const Guidance& guidance, const HandedPath& handed,
@@ -136,40 +168,15 @@ Navigator::Led Navigator::lead(std::uint32_t robot, const Guidance& guidance, co
   if (route.base.empty()) return {guidance, handed, false};
 
   const core::RobotState& state = world_.robots()[robot];
-  const dmrp_pose& pose = sensors.odometry().pose();
-  const dmrp_vec2 here = toolkit::position(pose);
-  const double base_m = guidance.progress_m;
-  const dmrp_vec2 ahead = toolkit::point_at(route.base, route.base_arcs, base_m + 1.0);
-  const dmrp_vec2 direction = ahead == here ? toolkit::from_angle(pose.theta) : toolkit::normalized(ahead - here);
-  const core::RouteMap map(
-      {sensors.costmap(), sensors.agents(), pose, direction, variant_.simulation.execution == core::Execution::ordered},
-      world_.robot_settings(robot));
-  const double sight_m = map.reach_m() - border_m;
-  const double off_m = toolkit::distance(here, toolkit::point_at(route.base, route.base_arcs, base_m));
-  const bool is_on_base = off_m < variant_.planning_grid.view().resolution_m;
-  const bool base_is_free = is_on_base && !first_block(map, route.base, base_m, base_m + sight_m).exists;
-
-  const Kind before = route.kind;
-  if (before != Kind::base) route.progress.update(toolkit::position(state.pose), state.goal_index);
-  const double led_m = route.progress.progress_m();
-  const bool is_blocked =
-      before == Kind::base ? !base_is_free : first_block(map, route.path, led_m, led_m + sight_m).exists;
-  const bool leads_past = before == Kind::past && !is_blocked && route.progress.waypoint() < route.rejoins;
-  const bool due = world_.t_ns() >= route.made_ns + made_again_ns && !leads_past;
-  const bool is_made = !base_is_free && ((is_blocked && !route.was_blocked) || base_is_new || due);
-  if (base_is_free) {
-    route.kind = Kind::base;
-  } else if (is_made) {
-    route.kind = make(route, map, here, base_m, is_on_base);
-    route.made_ns = world_.t_ns();
-  }
-  route.was_blocked = is_blocked && !base_is_free;
-
+  const dmrp_vec2 position = toolkit::position(state.pose);
+  const bool had_base = route.kind == Kind::base;
+  if (!had_base) route.progress.update(position, state.goal_index);
+  const bool is_made = decide(route, look(route, robot, guidance.progress_m, sensors), base_is_new);
   if (route.kind == Kind::base) {
-    const HandedPath base = {route.base, route.base_flags, before == Kind::base ? handed.update_flags : 0};
-    return {guidance, base_is_new || before != Kind::base ? base : HandedPath{}, false};
+    if (had_base) return {guidance, handed, false};
+    return {guidance, {route.base, route.base_flags, 0}, false};
   }
-  if (is_made) route.progress.set_path(route.path, toolkit::position(state.pose));
+  if (is_made) route.progress.set_path(route.path, position);
   const Guidance led = {guidance.goal, route.progress.progress_m(), route.progress.waypoint()};
   return {led, is_made ? HandedPath{route.path, route.flags, 0} : HandedPath{}, is_made};
 }

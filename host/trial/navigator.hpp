@@ -21,8 +21,9 @@ namespace dmrp::host {
 //
 // A route is the path that the dispatcher hands over, as long as nothing stands on it (route_map.hpp) and the robot is on
 // it. Otherwise it begins at the robot, leads past what stands there to the farthest free place of the path in the
-// costmap, and goes on along the path; where nothing leads past, it ends at the last free place before it. It is made
-// when the path becomes blocked or free, when the robot has left it, and once a second while it is not the path itself.
+// costmap, and goes on along the path. Where the path ends in what stands there, the route ends before it; where nothing
+// leads past, the path stays. A route is made when what the controller has becomes blocked, when the dispatcher's path
+// changes, and once a second until it leads past.
 //
 // With execution = "ordered" a route stays in the planning grid's cells that the path passes, and robots are no
 // obstacles: their order holds.
@@ -57,6 +58,15 @@ class Navigator {
     std::int64_t made_ns = 0;     // the time
   };
 
+  // The robot and what it sees at this control tick.
+  struct Sight {
+    core::RouteMap map;
+    dmrp_vec2 here;
+    double base_m;    // its place on the base, along it
+    double reach_m;   // in which it looks at paths
+    bool is_on_base;  // to within a cell
+  };
+
   // Whether a part of a path is not free, and where that begins.
   struct Block {
     bool exists = false;
@@ -65,10 +75,12 @@ class Navigator {
 
   static Block first_block(const core::RouteMap& map, const std::vector<dmrp_waypoint>& path, double from_m,
                            double to_m);
-  static double far_m(const Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m);
-  Kind make(Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m, bool is_on_base) const;
-  bool lead_past(Route& route, const core::RouteMap& map, dmrp_vec2 here, double base_m, double to_m) const;
-  void stop_before(Route& route, dmrp_vec2 here, double base_m, double block_m) const;
+  static double far_m(const Route& route, const Sight& sight);
+  Sight look(const Route& route, std::uint32_t robot, double base_m, RobotSensors& sensors) const;
+  bool decide(Route& route, const Sight& sight, bool base_is_new) const;
+  Kind make(Route& route, const Sight& sight) const;
+  bool lead_past(Route& route, const core::RouteMap& map, const Sight& sight, double to_m) const;
+  void stop_before(Route& route, const Sight& sight, double block_m) const;
   dmrp_waypoint waypoint_at(const Route& route, dmrp_vec2 point, double base_m) const;
   std::function<bool(dmrp_vec2)> cells_of(const Route& route) const;
 

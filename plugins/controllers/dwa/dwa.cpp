@@ -89,7 +89,6 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                                        enforce_path_inversion,
                                        return_to_path,
                                        extend_path,
-                                       lead_around,
                                        lean_into_gaps,
                                        speed_of(now.velocity) < standing_m_s};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
@@ -99,8 +98,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   const bool stalled = is_stalled(now);
   update_oscillation(now, stalled);
   const std::optional<FootprintCheck> room = room_to_leave_for(now, map, stalled && !goal.is_cut);
-  // paths are not replanned around people: past an obstacle on the path, the goal critics alone guide the robot
-  const bool follow = (goal.path_is_free || !lead_around) && !leaves_path(robot, stalled && !goal.is_cut);
+  const bool follow = !leaves_path(robot, stalled && !goal.is_cut);
   const bool align = to_goal_m > forward_point_distance;
   const dwa::Ramp ramp = {
       {now.velocity.v_x, now.velocity.omega, now.velocity.v_y}, now.limits.a_max, now.limits.alpha_max};

@@ -69,10 +69,6 @@ class Dwa final : public PathController {
                                    .doc("departure: drive straight to a path that lies outside the window; off: stand");
   Param<bool> leave_padding = param("leave_padding", false)
                                   .doc("departure: after standing beside an obstacle for 2 s, drive clear of it first");
-  Param<bool> lead_around =
-      param("lead_around", true)
-          .doc(
-              "departure: past an obstacle on the path, the goal critics alone count, and cells close to it cost more");
   Param<bool> turn_to_better_heading =
       param("turn_to_better_heading", true)
           .doc("departure: if standing still scores best, turn in place to a heading that scores better");

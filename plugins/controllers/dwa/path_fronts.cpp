@@ -13,9 +13,6 @@ namespace {
 // Enough for a straight path across a window of usual size; more points cost an allocation.
 constexpr std::size_t most_plan_points = 1024;
 
-// Cells closer to obstacles than this, beyond the clearance that the robot needs, cost close_effort.
-constexpr double easy_m = 0.15;
-
 // The path turns back where it comes nearer to the place reached by more than this. (inversion_xy_tolerance in nav2)
 constexpr double inversion_tolerance_m = 0.2;
 
@@ -31,14 +28,12 @@ void PathFronts::start() {
 
 LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double heading, const CostmapView& map,
                              const std::array<Box, 2>& boxes, const FrontSettings& settings) {
-  const double beyond_m = settings.avoids_close_cells ? easy_m : 0.0;
-  const std::uint8_t highest_easy = map.highest_cost_at(settings.needed_m + beyond_m);
   const std::uint8_t highest_free = map.highest_cost_at(settings.needed_m);
   const auto spread_all = [&] {
     request(map, robot, boxes);
     return spread_fronts(tracker, robot, heading, map, settings);
   };
-  terrain_.read(map, highest_free, highest_easy);
+  terrain_.read(map, highest_free);
   lay_out_plan(tracker, robot, map, settings);
   const bool ends_on_obstacle = !plan_.empty() && !terrain_.is_free(plan_.back().index);
   const bool looks_beyond = settings.leans_into_gaps && ends_on_obstacle;
@@ -55,12 +50,11 @@ LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double head
   passes_ = looks_beyond;
   end_on_free_cell();
   end_on_the_right(map);
-  terrain_.read(map, DMRP_COST_LETHAL - 1, highest_easy);
+  terrain_.read(map, DMRP_COST_LETHAL - 1);
   LocalGoal goal = spread_all();
-  goal.path_is_free = false;
   goal.leans = true;
   if (!goal.is_cut) return goal;
-  terrain_.read(map, highest_free, highest_easy);
+  terrain_.read(map, highest_free);
   lay_out_plan(tracker, robot, map, settings);
   return spread_all();
 }
@@ -94,8 +88,6 @@ LocalGoal PathFronts::spread_fronts(const PathTracker& tracker, Vec2 robot, doub
   goal.at = robot;
   const std::int32_t goal_index = choose_goal(home, goal);
   spread_nose(map, robot, heading, goal_index, settings.nose_m, goal);
-  goal.path_is_free =
-      std::all_of(plan_.begin(), plan_.end(), [this](const PlanPoint& point) { return terrain_.is_free(point.index); });
   return goal;
 }
 
@@ -217,7 +209,7 @@ void PathFronts::spread_goal(std::int32_t index, bool everywhere) {
   goal_.begin(terrain_, everywhere);
   if (index < 0) return;
   goal_.seed(index);
-  goal_.spread_by_effort(terrain_);
+  goal_.spread();
 }
 
 // The last point of the plan that the robot can reach, or its own position; spreads the goal's front from it.
@@ -257,7 +249,7 @@ void PathFronts::spread_nose(const CostmapView& map, Vec2 robot, double heading,
     goal.front_length_m = i * step_m;
   }
   nose_.seed(front);
-  nose_.spread_by_effort(terrain_);
+  nose_.spread();
 }
 
 }  // namespace dmrp::controllers::dwa

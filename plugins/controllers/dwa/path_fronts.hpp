@@ -17,7 +17,6 @@ struct FrontSettings {
   bool ends_at_inversion = false;  // the path considered ends where it turns back
   bool returns_to_path = false;    // a path outside the window is considered from the robot's position on
   bool extends_path = true;        // straight on beyond its end, by the nose's length
-  bool avoids_close_cells = true;  // cells close to obstacles cost more
   bool leans_into_gaps = false;    // where the way past an obstacle is too narrow: over all cells but occupied ones
   bool stands = false;             // the robot stands
 };
@@ -35,10 +34,9 @@ struct Box {
 
 // Where the robot goes in this cycle.
 struct LocalGoal {
-  Vec2 at = {0.0, 0.0};      // the last point of the path in the window that the robot can reach; its position if none
-  bool is_cut = false;       // obstacles separate the robot from the path's end in the window
-  bool path_is_free = true;  // all points of the path in the window lie on free cells
-  bool leans = false;        // the way there leads through a gap that is too narrow
+  Vec2 at = {0.0, 0.0};  // the last point of the path in the window that the robot can reach; its position if none
+  bool is_cut = false;   // obstacles separate the robot from the path's end in the window
+  bool leans = false;    // the way there leads through a gap that is too narrow
   double front_length_m = 0.0;  // from `at` to the seed of nose()
 };
 

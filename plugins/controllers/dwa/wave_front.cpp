@@ -6,21 +6,17 @@
 
 namespace dmrp::controllers::dwa {
 
-void Terrain::read(const CostmapView& map, std::uint8_t highest_free_cost, std::uint8_t highest_easy_cost) {
+void Terrain::read(const CostmapView& map, std::uint8_t highest_free_cost) {
   stride_ = map.width() + 2;
   const std::size_t size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(map.height() + 2);
   marks_.resize(size);
-  efforts_.resize(size);
   std::fill_n(marks_.begin(), stride_, blocked);
   for (std::int32_t row = 0; row < map.height(); ++row) {
     const std::uint8_t* costs = map.costs() + row * map.width();
     std::uint16_t* marks = marks_.data() + (row + 1) * stride_;
-    std::uint8_t* efforts = efforts_.data() + (row + 1) * stride_;
     marks[0] = blocked;
-    for (std::int32_t column = 0; column < map.width(); ++column) {
+    for (std::int32_t column = 0; column < map.width(); ++column)
       marks[column + 1] = costs[column] > highest_free_cost ? blocked : unreached;
-      efforts[column + 1] = costs[column] > highest_easy_cost ? close_effort : 1;
-    }
     marks[stride_ - 1] = blocked;
   }
   std::fill_n(marks_.end() - stride_, stride_, blocked);
@@ -102,38 +98,6 @@ void WaveFront::spread() {
     }
   }
   queued_ = queued;
-  missing_ = missing;
-}
-
-// A step costs the effort of the cell it enters, whatever the cell it leaves; so the first step into a cell, in order
-// of distance, is the cheapest one.
-void WaveFront::spread_by_effort(const Terrain& terrain) {
-  const std::uint8_t* efforts = terrain.efforts().data();
-  std::uint16_t* distances = distances_.data();
-  std::int32_t missing = missing_;
-  const std::int32_t offsets[4] = {1, -1, stride_, -stride_};
-  constexpr std::uint16_t ring_count = close_effort + 1;
-  std::size_t counts[ring_count] = {};
-  for (std::vector<std::int32_t>& ring : rings_) ring.resize(distances_.size());
-  std::copy_n(queue_.begin(), queued_, rings_[0].begin());
-  counts[0] = queued_;
-  for (std::uint16_t distance = 0, idle = 0; idle < ring_count && missing != 0; ++distance) {
-    const std::uint16_t here = distance % ring_count;
-    const std::int32_t* ring = rings_[here].data();
-    idle = counts[here] == 0 ? static_cast<std::uint16_t>(idle + 1) : std::uint16_t{0};
-    for (std::size_t i = 0; i < counts[here]; ++i) {
-      for (const std::int32_t offset : offsets) {
-        const std::int32_t to = ring[i] + offset;
-        const std::uint16_t mark = distances[to];
-        if (mark <= Terrain::blocked) continue;
-        missing -= mark == Terrain::requested;
-        distances[to] = static_cast<std::uint16_t>(distance + efforts[to]);
-        const std::uint16_t there = distances[to] % ring_count;
-        rings_[there][counts[there]++] = to;
-      }
-    }
-    counts[here] = 0;
-  }
   missing_ = missing;
 }
 

@@ -3,7 +3,6 @@
 // may end early, as soon as it has reached all requested cells.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,8 +19,8 @@ class Terrain {
   static constexpr std::uint16_t unreached = 0xFFFE;
   static constexpr std::uint16_t requested = 0xFFFF;  // unreached and requested
 
-  // Cells above `highest_free_cost` are blocked; steps onto cells above `highest_easy_cost` cost close_effort.
-  void read(const CostmapView& map, std::uint8_t highest_free_cost, std::uint8_t highest_easy_cost);
+  // Cells above `highest_free_cost` are blocked.
+  void read(const CostmapView& map, std::uint8_t highest_free_cost);
 
   // Requests all free cells of a rectangle, in addition to those requested before: fronts end once they have reached
   // the requested cells. Columns and rows of the costmap; the last ones are included.
@@ -42,18 +41,13 @@ class Terrain {
 
   std::int32_t stride() const { return stride_; }
   std::int32_t requested_count() const { return requested_count_; }
-  const std::vector<std::uint16_t>& marks() const { return marks_; }     // blocked, unreached or requested
-  const std::vector<std::uint8_t>& efforts() const { return efforts_; }  // the cost of a step onto a cell
+  const std::vector<std::uint16_t>& marks() const { return marks_; }  // blocked, unreached or requested
 
  private:
   std::int32_t stride_ = 0;
   std::int32_t requested_count_ = 0;
   std::vector<std::uint16_t> marks_;
-  std::vector<std::uint8_t> efforts_;
 };
-
-// The effort of a step onto a cell close to an obstacle; all others have 1.
-inline constexpr std::uint8_t close_effort = 3;
 
 // The number of steps from each free cell to the nearest seed over the 4-connected grid. Reuses its buffers.
 class WaveFront {
@@ -62,10 +56,6 @@ class WaveFront {
   void begin(const Terrain& terrain, bool everywhere = false);
   void seed(std::int32_t index);  // no effect if the cell is not free
   void spread();
-
-  // As spread(), but sums the efforts of the steps, so that shortest paths to the seeds keep away from obstacles where
-  // they can. (A path along an obstacle leaves a robot no room to turn away from it.)
-  void spread_by_effort(const Terrain& terrain);
 
   bool reached(std::int32_t index) const { return index >= 0 && cells(index) < Terrain::blocked; }
   std::uint16_t cells(std::int32_t index) const { return distances_[static_cast<std::size_t>(index)]; }
@@ -76,7 +66,6 @@ class WaveFront {
   std::vector<std::int32_t> queue_;  // breadth-first, from the seeds on
   std::size_t queued_ = 0;
   std::int32_t missing_ = 0;  // requested cells not yet reached; negative: all cells are requested
-  std::array<std::vector<std::int32_t>, close_effort + 1> rings_;  // cells by distance, modulo the number of rings
 };
 
 }  // namespace dmrp::controllers::dwa
