@@ -39,7 +39,7 @@ RouteMap::RouteMap(const View& view, const RobotSettings& robot) : view_(view), 
   }
 }
 
-// An agent that passes through: `ahead` is where it will be while the robot comes up to it.
+// Closes an oncoming agent's way: `ahead` is where it will be while the robot comes up to it.
 void RouteMap::meet(const dmrp_agent& agent) {
   const dmrp_vec2 here = toolkit::position(view_.pose);
   const dmrp_vec2 there = toolkit::position(agent.pose);

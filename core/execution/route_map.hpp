@@ -18,8 +18,8 @@ namespace dmrp::core {
 //
 // - What stands is an obstacle: all that the costmap has marked, without the agents that move, which the robot's
 //   controller meets in time, and without robots where an order between them holds (`yields_to_robots`).
-// - An agent that comes toward the robot closes the way ahead of itself and to the left of itself as the robot sees it, so
-//   that both keep right. A robot does the same, so its place is taken to be half of what both need farther to the left.
+// - An oncoming agent closes the way ahead of itself, and to the left of itself as the robot sees it, so that both keep
+//   right. An oncoming robot does the same, so it is taken to be farther to the left by half of the room that both need.
 // - Unknown cells and those outside of the costmap are free.
 class RouteMap {
  public:
@@ -34,10 +34,10 @@ class RouteMap {
   // The arguments outlive it.
   RouteMap(const View& view, const RobotSettings& robot);
 
-  // The same without those who come toward the robot.
+  // The same without oncoming agents.
   RouteMap of_what_stands() const;
 
-  // Whether nothing stands where the footprint would be; and nobody comes there.
+  // Whether nothing stands where the footprint would be; and also no oncoming agent comes there.
   bool is_free(dmrp_vec2 point, double heading) const;
   bool fits(dmrp_vec2 point, double heading) const;
 

@@ -147,13 +147,18 @@ void OrcaController::add_agents(const Observation& now, double margin_m) {
   }
 }
 
-// Along the path, and no faster than the robot can stop at its end.
+// Along the path, and no faster than the robot can stop at its end. A differential drive is to face its way before it
+// gets there: faster, it would orbit the end.
 Vec2 OrcaController::preferred(const Observation& now) const {
   const Vec2 robot = toolkit::position(now.pose);
   const Vec2 way = tracker_.point_at_distance(robot, lookahead_dist) - robot;
   const double remaining_m = std::max(tracker_.remaining_m(), toolkit::distance(robot, tracker_.stop().position));
-  const double speed = stopping_speed(remaining_m, now.limits.a_max, seconds(now.dt_ns));
-  return std::min(now.limits.v_max, speed) * toolkit::normalized(way);
+  double speed = std::min<double>(now.limits.v_max, stopping_speed(remaining_m, now.limits.a_max, seconds(now.dt_ns)));
+  if (!holonomic_ && way != Vec2{0.0, 0.0}) {
+    const double angle = toolkit::difference(now.pose.theta, std::atan2(way.y, way.x));
+    if (angle != 0.0) speed = std::min(speed, remaining_m * orca::arc_rate(follower(now), angle) / angle);
+  }
+  return speed * toolkit::normalized(way);
 }
 
 orca::Follower OrcaController::follower(const Observation& now) const {

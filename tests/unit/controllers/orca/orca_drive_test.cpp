@@ -48,3 +48,16 @@ TEST_CASE("ORCA gives way to a person who does not") {
   CHECK(drive.arrived);
   CHECK(drive.walker_clearance_m > 0.0);
 }
+
+TEST_CASE("ORCA's robots do not orbit a goal close behind a turn") {
+  for (int i = 0; i < 16; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      Course course;
+      course.path = metre_path({{0.0, 0.0}, {1.0, 0.0}, {1.0, side}});
+      course.start.theta = dmrp::toolkit::pi * (i - 8) / 8.0;
+      const Drive drive = run(orca, course);
+      CAPTURE(course.start.theta, side);
+      CHECK(drive.arrived);
+      CHECK(drive.time_s < 20.0);
+    }
+}

@@ -46,7 +46,7 @@ Track walk(dmrp_vec2 from, dmrp_vec2 velocity) {
   return {{{0, from}, {minute_ns, from + 60.0 * velocity}}};
 }
 
-// Who drives at random: a command for 0.1 to 2 s, often beyond what the robot can.
+// Drives at random: a command for 0.1 to 2 s, often beyond what the robot can.
 class RandomDriver {
  public:
   explicit RandomDriver(Stream& stream) : stream_(stream) {}

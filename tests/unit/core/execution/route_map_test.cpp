@@ -110,7 +110,7 @@ TEST_CASE("a robot that does not fit where it is leaves that place", "[route]") 
   CHECK(around.map().way(from, to, {}));
 }
 
-TEST_CASE("who comes toward the robot is passed on the right, who crosses is left to the controller", "[route]") {
+TEST_CASE("the robot passes oncoming agents on the right, and leaves crossing ones to its controller", "[route]") {
   Surroundings around;
   around.add_disc({0.5, 0.0}, 0.2);
   dmrp_agent agent{};

@@ -217,6 +217,9 @@ TEST_CASE("mistakes in an experiment's settings") {
        "20:18: 'steps' must be one of clear_costmap, spin, wait, backup, replan, not 'back_up' (did you mean "
        "'backup'?)"},
       {"[recovery]\nsteps = []", "20:9: 'steps' needs one step at least (no recoveries: retries = 0)"},
+      {"[navigation]\nroute = \"arround\"",
+       "20:9: 'route' must be one of path, around, not 'arround' (did you mean 'around'?)"},
+      {"[navigation]\nmonitr = true", "20:1: unknown key 'monitr' in [navigation] (did you mean 'monitor'?)"},
       {"[[simulation]]", "19:1: 'simulation' must be a table, not an array"},
       {"[robot]\nfootprint = { radius = 0.3 }",
        "20:15: unknown key 'radius' in 'footprint' (did you mean 'radius_m'?)"},
