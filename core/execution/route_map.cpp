@@ -19,8 +19,8 @@ namespace {
 
 constexpr double standing_speed = 0.15;  // m/s; what is slower stands
 constexpr double against = -0.5;         // cosine: what comes toward the robot
-constexpr double foresight_s = 3.0;      // of an oncoming agent's way
-constexpr double closed_left_m = 1.5;    // beside an oncoming agent
+constexpr double foresight_s = 3.0;      // of an oncoming robot's way
+constexpr double closed_left_m = 1.5;    // beside an oncoming robot
 constexpr double blur_m = 0.1;  // by which a moving body's marks reach beyond it: a cell, and where it has been
 constexpr double cost_of_closeness = 2.0;
 
@@ -35,22 +35,22 @@ RouteMap::RouteMap(const View& view, const RobotSettings& robot) : view_(view), 
     const bool yields = view.yields_to_robots && agent.kind == DMRP_AGENT_ROBOT;
     const bool moves = toolkit::norm(agent.velocity) > standing_speed;
     if (yields || moves) left_out_.push_back(&agent);
-    if (!yields && moves) meet(agent);
+    if (!yields && moves && agent.kind == DMRP_AGENT_ROBOT) meet(agent);
   }
 }
 
-// Closes an oncoming agent's way: `ahead` is where it will be while the robot comes up to it.
-void RouteMap::meet(const dmrp_agent& agent) {
+// Closes an oncoming robot's way: `ahead` is where it will be while the robot comes up to it.
+void RouteMap::meet(const dmrp_agent& other) {
   const dmrp_vec2 here = toolkit::position(view_.pose);
-  const dmrp_vec2 there = toolkit::position(agent.pose);
-  const double speed = toolkit::norm(agent.velocity);
-  const dmrp_vec2 way = (1.0 / speed) * agent.velocity;
+  const dmrp_vec2 there = toolkit::position(other.pose);
+  const double speed = toolkit::norm(other.velocity);
+  const dmrp_vec2 way = (1.0 / speed) * other.velocity;
   if (toolkit::dot(way, view_.direction) > against || toolkit::dot(there - here, view_.direction) < 0.0) return;
   const double apart_m = toolkit::distance(here, there);
   const double until_met_m = apart_m * speed / (speed + robot_.v_max);
-  const double need_m = robot_.radius_m + agent.radius_m + clear_gap_m;
+  const double need_m = robot_.radius_m + other.radius_m + clear_gap_m;
   const dmrp_vec2 left = toolkit::perpendicular(view_.direction);
-  const dmrp_vec2 shift = agent.kind == DMRP_AGENT_ROBOT ? 0.5 * need_m * left : dmrp_vec2{0.0, 0.0};
+  const dmrp_vec2 shift = 0.5 * need_m * left;
   const dmrp_vec2 met = there + std::min(until_met_m, foresight_s * speed) * way + shift;
   oncoming_.push_back({{there + shift, met}, {met, met + closed_left_m * left}, need_m});
 }
@@ -104,8 +104,8 @@ bool RouteMap::is_free(dmrp_vec2 point, double heading) const {
 }
 
 bool RouteMap::fits(dmrp_vec2 point, double heading) const {
-  for (const Oncoming& agent : oncoming_)
-    if (distance_to(agent.ahead, point) < agent.need_m || distance_to(agent.left, point) < agent.need_m) return false;
+  for (const Oncoming& robot : oncoming_)
+    if (distance_to(robot.ahead, point) < robot.need_m || distance_to(robot.left, point) < robot.need_m) return false;
   return is_free(point, heading);
 }
 

@@ -18,8 +18,8 @@ namespace dmrp::core {
 //
 // - What stands is an obstacle: all that the costmap has marked, without the agents that move, which the robot's
 //   controller meets in time, and without robots where an order between them holds (`yields_to_robots`).
-// - An oncoming agent closes the way ahead of itself, and to the left of itself as the robot sees it, so that both keep
-//   right. An oncoming robot does the same, so it is taken to be farther to the left by half of the room that both need.
+// - An oncoming robot closes the way ahead of itself, and to the left of itself as this one sees it, so that both keep
+//   right. It does the same, so it is taken to be farther to the left by half of the room that both need.
 // - Unknown cells and those outside of the costmap are free.
 class RouteMap {
  public:
@@ -34,10 +34,10 @@ class RouteMap {
   // The arguments outlive it.
   RouteMap(const View& view, const RobotSettings& robot);
 
-  // The same without oncoming agents.
+  // The same without oncoming robots.
   RouteMap of_what_stands() const;
 
-  // Whether nothing stands where the footprint would be; and also no oncoming agent comes there.
+  // Whether nothing stands where the footprint would be; and also no oncoming robot comes there.
   bool is_free(dmrp_vec2 point, double heading) const;
   bool fits(dmrp_vec2 point, double heading) const;
 
@@ -66,7 +66,7 @@ class RouteMap {
     const std::function<bool(dmrp_vec2)>& allowed;
   };
 
-  void meet(const dmrp_agent& agent);
+  void meet(const dmrp_agent& other);
   bool is_left_out(dmrp_vec2 point, double beyond_m) const;
   std::uint8_t cost(dmrp_vec2 point) const;
   bool outline_is_free(dmrp_vec2 point, double heading) const;

@@ -110,7 +110,7 @@ void Navigator::stop_before(Route& route, const Sight& sight, double block_m) co
   route.flags = route.base_flags | DMRP_PATH_PARTIAL;
 }
 
-// Where no way leads past oncoming agents, the base holds. It ends early only if something stands at its end.
+// Where no way leads past oncoming robots, the base holds. It ends early only if something stands at its end.
 Navigator::Kind Navigator::make(Route& route, const Sight& sight) const {
   const double to_m = far_m(route, sight);
   if (lead_past(route, sight.map, sight, to_m)) return Kind::past;

@@ -69,7 +69,7 @@ TEST_CASE("a list of numbers of people makes a variant of each, with the same se
   check_round_trip(one);
 }
 
-TEST_CASE("settings of [simulation], [recovery] and [robot] are swept, each combination a variant") {
+TEST_CASE("settings of [simulation], [recovery], [navigation] and [robot] are swept, each combination a variant") {
   const ExperimentFolder folder;
   const Experiment e =
       load(with_tables("[simulation]\nsweep = { tracking = [\"none\", \"all\"], replan_period_s = [0, 2] }\n"
@@ -94,6 +94,15 @@ TEST_CASE("settings of [simulation], [recovery] and [robot] are swept, each comb
   CHECK(simulation_of(ladders, ladders.scenarios[3]).recovery.retries == 6);
   CHECK(simulation_of(ladders, ladders.scenarios[3]).recovery.steps.size() == 2);
   check_round_trip(ladders);
+
+  const Experiment routes =
+      load(with_tables("[navigation]\nmonitor = true\nsweep = { route = [\"path\", \"around\"] }\n"));
+  REQUIRE(routes.scenarios.size() == 2);
+  CHECK(routes.scenarios[1].swept[0] == SweptValue{"navigation", "route", "around"});
+  CHECK(simulation_of(routes, routes.scenarios[0]).navigation.route == core::LocalRoute::path);
+  CHECK(simulation_of(routes, routes.scenarios[1]).navigation.route == core::LocalRoute::around);
+  CHECK(simulation_of(routes, routes.scenarios[1]).navigation.monitor);
+  check_round_trip(routes);
 
   const Experiment limits = load(with_tables("[simulation]\nsweep = { time_limit_s = [20, 40] }\n"));
   CHECK(limits.time_limit_set);
