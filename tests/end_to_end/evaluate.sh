@@ -42,8 +42,8 @@ expect_status 0 "$host" evaluate "$scratch/wide" --csv "$scratch/again.csv"
 cmp -s "$scratch/again.csv" "$scratch/wider.csv" || fail "the run's own parameters should be used"
 metrics=$(dirname "$host")/../lib/dmrp/plugins/libdmrp_metrics.so
 expect_status 0 "$host" evaluate "$scratch/wide" --plugin "$metrics"
-# `recoveries` is measured by a run only where robots have some
-other=$(query "$run" "SELECT group_concat(name, '|') || '|recoveries' FROM metric WHERE wall_clock OR name LIKE 'sto%'")
+# recoveries and interventions are measured by a run only where robots have some
+other=$(query "$run" "SELECT group_concat(name, '|') || '|recoveries|interventions|intervention_time' FROM metric WHERE wall_clock OR name LIKE 'sto%'")
 cmp -s <(grep -Ev ",($other)," "$scratch/stdout" | sort) <(grep -Ev ",($other)," "$all" | sort) &&
   cmp -s <(grep ,sto, "$scratch/stdout") <(grep ,sto, "$scratch/wider.csv") ||
   fail "a library should add its metrics to the run's"
