@@ -34,7 +34,7 @@ class RouteMap {
   // The arguments outlive it.
   RouteMap(const View& view, const RobotSettings& robot);
 
-  // The same without oncoming robots.
+  // Returns this map without oncoming robots.
   RouteMap of_what_stands() const;
 
   // Whether nothing stands where the footprint would be; and also no oncoming robot comes there.
@@ -60,7 +60,8 @@ class RouteMap {
     double need_m;
   };
 
-  // Of a way: a place that the robot may leave, or nullptr; and where it may be at all.
+  // Limits a way: `left_place` may be left although the robot does not fit there (nullptr: none); `allowed` says where the
+  // robot may be at all.
   struct Bounds {
     const dmrp_vec2* left_place;
     const std::function<bool(dmrp_vec2)>& allowed;

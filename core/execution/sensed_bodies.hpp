@@ -11,7 +11,7 @@
 
 namespace dmrp::core {
 
-// In the world; a disc if it has no parts.
+// Holds a body in the world frame, which is a disc if it has no parts.
 struct Body {
   dmrp_vec2 center;
   double radius_m;  // of the disc, or of the circle around `center` that contains the parts

@@ -80,7 +80,7 @@ class World {
   // As set_command(); the robot may drive backwards as fast as its type allows in a recovery, until the next command.
   dmrp_twist set_recovery_command(std::uint32_t robot, const dmrp_twist& command);
 
-  // From a command to its effect.
+  // Returns the time from a command to its effect.
   std::int64_t command_latency_ns(std::uint32_t robot) const {
     return settings_.control_latency_ns + robot_settings(robot).actuation_latency_ns;
   }

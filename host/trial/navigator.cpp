@@ -42,7 +42,7 @@ Navigator::Block Navigator::first_block(const core::RouteMap& map, const std::ve
   }
 }
 
-// In the planned time of the base at that arc length.
+// Makes a waypoint with the time that the plan has at that arc length of the base.
 dmrp_waypoint Navigator::waypoint_at(const Route& route, dmrp_vec2 point, double base_m) const {
   const toolkit::PathPlace place = toolkit::place_at(route.base, route.base_arcs, base_m);
   const dmrp_waypoint& from = route.base[place.segment];
@@ -110,7 +110,8 @@ void Navigator::stop_before(Route& route, const Sight& sight, double block_m) co
   route.flags = route.base_flags | DMRP_PATH_PARTIAL;
 }
 
-// Where no way leads past oncoming robots, the base holds. It ends early only if something stands at its end.
+// Leads past what blocks the base, if a way does. Else the controller keeps the base, which ends early only if something
+// stands at its end.
 Navigator::Kind Navigator::make(Route& route, const Sight& sight) const {
   const double to_m = far_m(route, sight);
   if (lead_past(route, sight.map, sight, to_m)) return Kind::past;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // navigator.hpp: leads the paths that controllers get around what stands on them.
 //
-// As nav2's planner server does once a second for its controllers (Macenski, Martin, White, Gines Clavero: The Marathon 2,
-// IROS 2020), but only within the costmap: beyond it the plan holds.
+// nav2's planner server does so once a second for its controllers (Macenski, Martin, White, Gines Clavero: The Marathon 2,
+// IROS 2020). A navigator leads within the costmap only; beyond it the plan holds.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace dmrp::host {
 // leads past, the path stays. A route is made when what the controller has becomes blocked, when the dispatcher's path
 // changes, and once a second until it leads past.
 //
-// With execution = "ordered" a route stays in the planning grid's cells that the path passes, and robots are no
-// obstacles: their order holds.
+// A route stays in the planning grid's cells that the path passes, and robots are no obstacles, where execution is
+// "ordered": their order holds.
 class Navigator {
  public:
   // Both arguments outlive it.
