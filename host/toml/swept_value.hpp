@@ -8,7 +8,7 @@
 namespace dmrp::host {
 
 struct SweptValue {
-  std::string table;  // "simulation", "recovery", "robot", or a plugin's: "local_controller"; "": of a [[scenario]]
+  std::string table;  // of settings: "simulation"; a plugin's: "local_controller"; "": of a [[scenario]]
   std::string key;
   std::string value;  // numbers in their shortest exact form, texts without quotes
 
@@ -22,7 +22,7 @@ inline std::string column_of(const SweptValue& swept) {
 
 // Whether it is part of a plugin's label, not of the scenario's name.
 inline bool is_of_plugin(const SweptValue& swept) {
-  return !swept.table.empty() && swept.table != "simulation" && swept.table != "recovery" && swept.table != "robot";
+  return swept.table == "global_planner" || swept.table == "local_controller" || swept.table == "pedestrian_model";
 }
 
 // A name with the swept values: "mall (people 12, tracking none)".

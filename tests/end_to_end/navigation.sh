@@ -90,3 +90,9 @@ expect_status 0 "$host" "$scratch/route.toml" --quiet --jobs 2 --out "$scratch/r
 outcomes=$(query "$scratch/route_one" "SELECT group_concat(value || ':' || outcome, ' ') FROM (SELECT swept.value, outcome
   FROM trial JOIN swept ON trial_id = trial.id WHERE key = 'route' ORDER BY trial.id)")
 [[ $outcomes == "path:failed path:failed around:succeeded around:succeeded" ]] || fail "routes: $outcomes"
+
+# settings are conditions: the tasks of a world are counted once
+sed -e 's|use = "./standing/scenario.toml"|use = "crossing"\nrobots = 2\ntasks = "drawn"|' -e 's/^trials = 1/trials = 3/' \
+  -e '$a [[local_controller]]\nuse = "dmrp.controller.stop_and_wait"' "$scratch/route.toml" >"$scratch/tasks.toml"
+expect_status 0 "$host" "$scratch/tasks.toml" --out "$scratch/tasks"
+grep -q 'In this world, over 3 tasks' "$scratch/stdout" || fail "12 trials of 3 tasks: $(grep ' over ' "$scratch/stdout")"
