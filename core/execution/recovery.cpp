@@ -15,11 +15,11 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double standing_speed = 1e-3;  // m/s, rad/s
+constexpr double still_speed = 1e-3;  // m/s, rad/s
 
 bool stands(const RobotState& robot) {
-  return std::hypot(robot.velocity.v_x, robot.velocity.v_y) < standing_speed &&
-         std::abs(robot.velocity.omega) < standing_speed;
+  return std::hypot(robot.velocity.v_x, robot.velocity.v_y) < still_speed &&
+         std::abs(robot.velocity.omega) < still_speed;
 }
 
 }  // namespace

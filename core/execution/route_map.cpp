@@ -17,10 +17,10 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double standing_speed = 0.15;  // m/s; what is slower stands
-constexpr double against = -0.5;         // cosine: what comes toward the robot
-constexpr double foresight_s = 3.0;      // of an oncoming robot's way
-constexpr double closed_left_m = 1.5;    // beside an oncoming robot
+constexpr double slowest_moving_m_s = 0.15;  // m/s; what is slower stands
+constexpr double against = -0.5;             // cosine: what comes toward the robot
+constexpr double foresight_s = 3.0;          // of an oncoming robot's way
+constexpr double closed_left_m = 1.5;        // beside an oncoming robot
 constexpr double blur_m = 0.1;  // by which a moving body's marks reach beyond it: a cell, and where it has been
 constexpr double cost_of_closeness = 2.0;
 
@@ -33,7 +33,7 @@ double distance_to(const dmrp_segment& segment, dmrp_vec2 point) {
 RouteMap::RouteMap(const View& view, const RobotSettings& robot) : view_(view), robot_(robot) {
   for (const dmrp_agent& agent : view.agents) {
     const bool yields = view.yields_to_robots && agent.kind == DMRP_AGENT_ROBOT;
-    const bool moves = toolkit::norm(agent.velocity) > standing_speed;
+    const bool moves = toolkit::norm(agent.velocity) > slowest_moving_m_s;
     if (yields || moves) left_out_.push_back(&agent);
     if (!yields && moves && agent.kind == DMRP_AGENT_ROBOT) meet(agent);
   }

@@ -25,9 +25,11 @@ constexpr int any_axis = axes;
 constexpr int no_axis = -1;
 
 // The number of cells in each connected part of a growing graph.
-class Parts {
+class JoinedCells {
  public:
-  explicit Parts(std::size_t cells) : parent_(cells), size_(cells, 1) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit JoinedCells(std::size_t cells) : parent_(cells), size_(cells, 1) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
 
   std::uint32_t of(std::uint32_t cell) const {
     while (parent_[cell] != cell) cell = parent_[cell];
@@ -172,7 +174,7 @@ class FootprintGrid {
   std::array<dmrp_vec2, 8> steps_{};
   std::array<std::vector<ConvexPolygon>, 8> headed_;  // the footprint, by direction
   std::vector<int> axes_;                             // by cell, along which the robot can pass
-  Parts parts_;
+  JoinedCells parts_;
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace dmrp::core {
 
 namespace {
 
-constexpr double tolerance_m = 1e-6;
+constexpr double touching_tolerance_m = 1e-6;
 constexpr std::uint8_t stands_at_any_heading = 8;
 constexpr std::uint8_t stands_along_first_axis = 9;
 constexpr std::size_t motion_count = 13;
@@ -41,7 +41,7 @@ ConvexPolygon moved(ConvexPolygon polygon, dmrp_vec2 by) {
 
 // Whether the polygon meets the disc around the origin while it moves from `place` by `way`.
 bool meets_disc(const ConvexPolygon& polygon, dmrp_vec2 place, dmrp_vec2 way, double radius_m) {
-  return separation(swept(moved(polygon, place), way), {0.0, 0.0}, radius_m).distance_m < -tolerance_m;
+  return separation(swept(moved(polygon, place), way), {0.0, 0.0}, radius_m).distance_m < -touching_tolerance_m;
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ StepOverlaps::StepOverlaps(double cell_m, const std::vector<Robot>& robots) : ce
     largest_m = std::max(largest_m, robot.radius_m);
   }
   // of robots that are in no conflict by their cells, those at a right angle come nearest: within cell / sqrt(2)
-  if (std::sqrt(2.0) * (largest_m + second_m) <= cell_m_ + tolerance_m) return;
+  if (std::sqrt(2.0) * (largest_m + second_m) <= cell_m_ + touching_tolerance_m) return;
   reach_ = static_cast<std::int32_t>(std::ceil((largest_m + second_m) / cell_m_)) + 2;
   for (const Robot& robot : robots) {
     Body body{robot.radius_m, robot.parts};
@@ -130,7 +130,8 @@ bool StepOverlaps::bodies_overlap(const Body& a, Motion a_does, const Body& b, M
   // a relative to b
   const dmrp_vec2 place = {-cell_m_ * b_from_a.column, -cell_m_ * b_from_a.row};
   const dmrp_vec2 way = cell_m_ * (way_of(a_does) - way_of(b_does));
-  if (toolkit::distance(dmrp_segment{place, place + way}, dmrp_vec2{0.0, 0.0}) >= a.radius_m + b.radius_m - tolerance_m)
+  if (toolkit::distance(dmrp_segment{place, place + way}, dmrp_vec2{0.0, 0.0}) >=
+      a.radius_m + b.radius_m - touching_tolerance_m)
     return false;
   const Cover of_a = cover_of(a, a_does);
   const Cover of_b = cover_of(b, b_does);
@@ -138,7 +139,7 @@ bool StepOverlaps::bodies_overlap(const Body& a, Motion a_does, const Body& b, M
   for (const ConvexPolygon& one : of_a.polygons) {
     if (of_b.polygons.empty() && meets_disc(one, place, way, of_b.radius_m)) return true;
     for (const ConvexPolygon& two : of_b.polygons)
-      if (separation(swept(moved(one, place), way), two).distance_m < -tolerance_m) return true;
+      if (separation(swept(moved(one, place), way), two).distance_m < -touching_tolerance_m) return true;
   }
   for (const ConvexPolygon& two : of_b.polygons)
     if (of_a.polygons.empty() && meets_disc(two, -place, -way, of_a.radius_m)) return true;

@@ -13,7 +13,7 @@
 namespace dmrp::core {
 namespace {
 
-constexpr double standing_speed = 1e-9;  // m/s; slower commands do not determine a steering angle
+constexpr double steering_speed = 1e-9;  // m/s; slower commands do not determine a steering angle
 
 // Nodes and weights of Gauss-Legendre quadrature on [0, 1], order 10.
 constexpr std::array<double, 5> nodes = {0.046910077030668004, 0.230765344947158454, 0.5, 0.769234655052841546,
@@ -45,7 +45,7 @@ dmrp_pose steer(const dmrp_pose& pose, double v_x, double from_rad, double to_ra
 
 DriveState advance_ackermann(const DriveState& state, const dmrp_twist& command, const dmrp_limits& limits,
                              double dt_s) {
-  const bool is_standing = std::abs(command.v_x) < standing_speed;
+  const bool is_standing = std::abs(command.v_x) < steering_speed;
   const double aim_rad = is_standing ? state.steering_rad : steering_of(command, limits);
   const double change_rad = aim_rad - state.steering_rad;
   DriveState next = state;

@@ -10,7 +10,7 @@ namespace dmrp::core {
 namespace {
 
 constexpr double neighbour_reach_m = 0.25;     // people walk this far in about 0.2 s, then the search runs again
-constexpr double tolerance_m = 1e-7;           // far below the 0.5 mm between solid_depth_m and contact_depth_m
+constexpr double disc_tolerance_m = 1e-7;      // far below the 0.5 mm between solid_depth_m and contact_depth_m
 constexpr double outline_tolerance_m = 1e-10;  // polygons stay pressed at the same place: tolerances add up
 constexpr int pushing_sweeps = 200;            // in a jam, most steps need about a dozen
 constexpr int stopping_sweeps = 100;
@@ -195,7 +195,7 @@ void SolidMotion::limit_turns(std::span<const SolidBody> bodies, std::span<Solid
 }
 
 double SolidMotion::tolerance() const {
-  return outlines_.all_discs() ? tolerance_m : outline_tolerance_m;
+  return outlines_.all_discs() ? disc_tolerance_m : outline_tolerance_m;
 }
 
 // One pass over all constraints. Returns whether all of them held.

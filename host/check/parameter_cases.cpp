@@ -41,7 +41,7 @@ bool is_excused(const PluginInfo& info, const std::string& key, const PluginFaul
   });
 }
 
-constexpr std::int64_t most_asks = 100;               // then should_stop() says stop
+constexpr std::int64_t asks_until_stop = 100;         // then should_stop() says stop
 constexpr std::int64_t work_time_ns = 1'000'000'000;  // of the processor; then values are only started
 
 std::int64_t cpu_ns() {
@@ -72,7 +72,7 @@ void try_all(Examination& it, const std::function<std::optional<ParameterValue>(
   std::size_t tried = 0;
   std::size_t started = 0;
   const std::int64_t begin_ns = cpu_ns();
-  it.guard().stop_after_asks(most_asks);
+  it.guard().stop_after_asks(asks_until_stop);
   for (std::size_t i = 0; i < specs.size(); ++i)
     if (const auto value = choose(specs[i])) {
       const bool and_work = cpu_ns() - begin_ns < work_time_ns;

@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t look_interval_ns = 100'000'000;
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr std::int64_t load_budget_ns = 20 * second_ns;
-constexpr int start_attempts = 8;  // with other addresses
+constexpr int address_attempts = 8;  // with other addresses
 
 // The death of a guest interrupts the wait for its answer.
 void be_told_of_deaths() {
@@ -60,13 +60,13 @@ GuestProcess::GuestProcess(const Nursery& nursery, const LibraryUse& library, co
     : nursery_(nursery), limits_(limits), started_(started), looked_(looked), written_(library.written) {
   be_told_of_deaths();
   std::vector<std::unique_ptr<GuestMemory>> taken;  // it keeps its addresses until others are found
-  for (int attempt = 0; attempt < start_attempts; ++attempt) {
+  for (int attempt = 0; attempt < address_attempts; ++attempt) {
     start(library, spool);
     try {
       loaded_ = call({first, 0, 0, load_budget_ns});
       return;
     } catch (const GuestEnd&) {
-      if (process_->wait().exit_status != address_taken_exit || attempt + 1 == start_attempts) throw;
+      if (process_->wait().exit_status != address_taken_exit || attempt + 1 == address_attempts) throw;
     }
     taken.push_back(std::move(memory_));
   }

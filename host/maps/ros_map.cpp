@@ -22,7 +22,7 @@ namespace {
 constexpr std::uintmax_t max_yaml_bytes = 1 << 16;
 constexpr double min_resolution_m = 0.001;
 constexpr double max_resolution_m = 100.0;
-constexpr double max_coordinate_m = 1e6;
+constexpr double max_origin_m = 1e6;
 constexpr int max_free_probability = 49;  // of 100
 
 enum class Mode { trinary, scale, raw };
@@ -118,7 +118,7 @@ class MapFile {
 dmrp_pose read_origin(const MapFile& file) {
   const YAML::Node node = file.need("origin");
   if (!node.IsSequence() || node.size() != 3) file.fail(node.Mark(), "'origin' must be [x, y, yaw]");
-  const double most = max_coordinate_m;
+  const double most = max_origin_m;
   return {file.number(node[0], "origin", -most, most), file.number(node[1], "origin", -most, most),
           file.number(node[2], "origin", -most, most)};
 }

@@ -28,7 +28,7 @@ constexpr std::uint64_t scopes = 3;  // abstract sockets and signals
 constexpr int first_with_moves = 2;  // between folders; without it they are always refused
 constexpr int first_with_scopes = 6;
 
-void check(bool succeeded) {
+void require(bool succeeded) {
   if (!succeeded) throw MachineError("Landlock", errno);
 }
 
@@ -50,14 +50,14 @@ void set_apart() {
   const bool has_scopes = found >= first_with_scopes;
   const RulesetAttributes attributes = {has_scopes ? 0 : LANDLOCK_ACCESS_FS_REFER, 0, has_scopes ? scopes : 0};
   const Descriptor rules(static_cast<int>(syscall(SYS_landlock_create_ruleset, &attributes, sizeof(attributes), 0)));
-  check(rules.is_open());
+  require(rules.is_open());
   if (!has_scopes) {
     const Descriptor root(open("/", O_PATH | O_CLOEXEC));
     const landlock_path_beneath_attr rule = {LANDLOCK_ACCESS_FS_REFER, root.number()};
-    check(syscall(SYS_landlock_add_rule, rules.number(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0);
+    require(syscall(SYS_landlock_add_rule, rules.number(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0);
   }
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  check(syscall(SYS_landlock_restrict_self, rules.number(), 0) == 0);
+  require(syscall(SYS_landlock_restrict_self, rules.number(), 0) == 0);
 }
 
 }  // namespace dmrp::host::landlock

@@ -96,7 +96,7 @@ ExperimentFacts parse_experiment(const Json& json) {
   return experiment;
 }
 
-Manifest parse(const Json& json) {
+Manifest parse_manifest(const Json& json) {
   Manifest manifest;
   json.at("dmrp_version").get_to(manifest.dmrp_version);
   json.at("abi").get_to(manifest.abi);
@@ -241,7 +241,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
   try {
-    return parse(Json::parse(file));
+    return parse_manifest(Json::parse(file));
   } catch (const Json::exception& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }

@@ -59,7 +59,7 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
   return answer;
 }
 
-SummaryLayout parse(std::string_view text) {
+SummaryLayout parse_layout(std::string_view text) {
   const auto json = nlohmann::json::parse(text);
   if (!json.is_object()) throw std::runtime_error("not a table of keys");
   SummaryLayout layout;
@@ -105,7 +105,7 @@ SummaryLayout with_added_columns(SummaryLayout layout, std::span<const MetricCol
 
 SummaryLayout parse_summary_layout(std::string_view json, const std::string& name) {
   try {
-    return parse(json);
+    return parse_layout(json);
   } catch (const std::exception& error) {
     throw std::runtime_error(name + ": " + error.what());
   }

@@ -13,7 +13,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t max_people = 10'000;  // of a flow
+constexpr std::int64_t max_people_of_flow = 10'000;  // of a flow
 const std::vector<std::string> start_choices = {"along", "from"};
 
 Settings people_settings(core::PeopleSettings& to) {
@@ -63,7 +63,7 @@ std::uint32_t region_index(const TomlValue& value, const std::vector<std::string
 
 // A flow without people has no groups, so its group size is not limited.
 std::uint32_t read_group_size(const TomlValue& value, const core::Flow& flow) {
-  const auto size = static_cast<std::uint32_t>(value.integer(1, max_people));
+  const auto size = static_cast<std::uint32_t>(value.integer(1, max_people_of_flow));
   if (flow.people > 0 && size > flow.people)
     value.fail(fmt::format("'group_size' must be at most 'people', {}, not {}", flow.people, size));
   return size;
@@ -105,7 +105,7 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     });
     mistakes.attempt([&] { flow.regions = read_way(table, flow.name, regions, first_own); });
     mistakes.attempt([&] {
-      flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, max_people));
+      flow.people = static_cast<std::uint32_t>(table.need("people").integer(0, max_people_of_flow));
       if (const auto size = table.find("group_size")) flow.group_size = read_group_size(*size, flow);
     });
     mistakes.attempt([&] {
@@ -137,10 +137,10 @@ std::vector<TomlKey> flow_keys() {
           {"from"},
           {"via"},
           {"to"},
-          {"people", range_text(0, max_people)},
+          {"people", range_text(0, max_people_of_flow)},
           {"start", choices_text(start_choices)},
           {"respawn", boolean_text},
-          {"group_size", range_text(1, max_people)}};
+          {"group_size", range_text(1, max_people_of_flow)}};
 }
 
 void read_crowd(const TomlTable& root, ScenarioFile& out) {

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some spreadsheets write it
 constexpr std::array<std::string_view, 4> columns = {"time", "id", "x", "y"};
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_spaces(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r");
   return begin == std::string_view::npos ? std::string_view()
                                          : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
@@ -41,7 +41,7 @@ class Recording {
     for (line_ = 1; line_ <= lines_.count(); ++line_) {
       std::string_view line = lines_.line(line_);
       if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
-      if (trimmed(line).empty()) continue;
+      if (without_spaces(line).empty()) continue;
       const std::array<TextField, 4> fields = split(line);
       if (has_header)
         read_row(fields, out);
@@ -66,7 +66,7 @@ class Recording {
       const auto end = line.find(',', begin);
       if ((end == std::string_view::npos) != (i + 1 == fields.size()))
         fail(1, fmt::format("a row has 4 values, time,id,x,y, not {}", 1 + std::count(line.begin(), line.end(), ',')));
-      fields[i] = {trimmed(line.substr(begin, end - begin)), begin + 1};
+      fields[i] = {without_spaces(line.substr(begin, end - begin)), begin + 1};
       begin = end + 1;
     }
     return fields;

@@ -18,12 +18,12 @@ namespace dmrp::host {
 
 namespace {
 
-const std::vector<TomlKey> root_keys = {{"scenario"}, {"map"},       {"box"},        {"circle"}, {"polygon"},
-                                        {"robot"},    {"robots"},    {"people"},     {"region"}, {"flow"},
-                                        {"tiles"},    {"recording"}, {"robot_type"}, {"grade"}};
+const std::vector<TomlKey> scenario_root_keys = {{"scenario"}, {"map"},       {"box"},        {"circle"}, {"polygon"},
+                                                 {"robot"},    {"robots"},    {"people"},     {"region"}, {"flow"},
+                                                 {"tiles"},    {"recording"}, {"robot_type"}, {"grade"}};
 const std::vector<std::string> harder_choices = {"higher", "lower"};
 
-std::vector<TomlKey> header_keys() {
+std::vector<TomlKey> scenario_header_keys() {
   return {{"name"},
           {"title"},
           {"description"},
@@ -131,7 +131,7 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   core::Scenario& scenario = out.scenario;
   const TomlTable header = root.need("scenario").table("[scenario]");
   Mistakes mistakes;
-  mistakes.attempt([&] { header.allow_only_keys(header_keys()); });
+  mistakes.attempt([&] { header.allow_only_keys(scenario_header_keys()); });
   mistakes.attempt([&] { read_name(header, file, out); });
   mistakes.attempt([&] { scenario.title = header.need("title").line(); });
   mistakes.attempt([&] { scenario.description = header.need("description").line(); });
@@ -166,12 +166,19 @@ void set_level(const TomlTable& grade, std::optional<double> level, TomlDocument
 }  // namespace
 
 std::vector<TomlKeys> scenario_keys() {
-  std::vector<TomlKeys> tables = {
-      {"[scenario]", header_keys()}, {"[map]", map_keys()},         {"[tiles]", tiles_keys()},
-      {"[[box]]", box_keys()},       {"[[circle]]", circle_keys()}, {"[[polygon]]", polygon_keys()},
-      {"[[robot]]", robot_keys()},   {"[robots]", tasks_keys()},    people_keys(),
-      {"[[region]]", region_keys()}, {"[[flow]]", flow_keys()},     {"[[recording]]", recording_keys},
-      {"[grade]", grade_keys()}};
+  std::vector<TomlKeys> tables = {{"[scenario]", scenario_header_keys()},
+                                  {"[map]", map_keys()},
+                                  {"[tiles]", tiles_keys()},
+                                  {"[[box]]", box_keys()},
+                                  {"[[circle]]", circle_keys()},
+                                  {"[[polygon]]", polygon_keys()},
+                                  {"[[robot]]", robot_keys()},
+                                  {"[robots]", tasks_keys()},
+                                  people_keys(),
+                                  {"[[region]]", region_keys()},
+                                  {"[[flow]]", flow_keys()},
+                                  {"[[recording]]", recording_keys},
+                                  {"[grade]", grade_keys()}};
   for (TomlKeys& table : robot_table_keys("[robot_type.NAME")) tables.push_back(std::move(table));
   return tables;
 }
@@ -192,14 +199,14 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   ScenarioFile out;
   const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
   std::vector<TomlKeys> tables = scenario_keys();
-  tables.push_back({"", root_keys});
+  tables.push_back({"", scenario_root_keys});
   document->know(std::move(tables));
   out.document = document;
   const TomlTable root = out.document->root();
   const auto grade = root.find_table("grade");
   if (grade) set_level(*grade, level, *document);
   Mistakes mistakes;
-  mistakes.attempt([&] { root.allow_only_keys(root_keys); });
+  mistakes.attempt([&] { root.allow_only_keys(scenario_root_keys); });
   const bool has_header = mistakes.attempt([&] { read_header(root, file, out); });
   if (grade) mistakes.attempt([&] { read_grade(*grade, *document->level(), out); });
   std::optional<TaskMap> map;

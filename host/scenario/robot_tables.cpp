@@ -37,7 +37,7 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing_sides(toolkit::Polyg
   return std::nullopt;
 }
 
-core::ConvexPolygon read_polygon(const TomlValue& value) {
+core::ConvexPolygon read_part(const TomlValue& value) {
   core::ConvexPolygon polygon;
   for (const TomlValue& vertex : value.array()) {
     const std::vector<TomlValue> xy = vertex.array();
@@ -65,9 +65,9 @@ void read_footprint(const TomlTable& table, core::RobotSettings& to) {
     to.radius_m = given.number(min_radius_m, max_radius_m);
     return;
   }
-  if (given.key() == "vertices_m") to.parts.push_back(read_polygon(given));
+  if (given.key() == "vertices_m") to.parts.push_back(read_part(given));
   if (given.key() == "parts_m")
-    for (const TomlValue& part : given.array()) to.parts.push_back(read_polygon(part));
+    for (const TomlValue& part : given.array()) to.parts.push_back(read_part(part));
   if (to.parts.empty()) given.fail("'parts_m' must have at least one polygon");
   if (!(core::inscribed_radius(to.parts) > 0.0))
     given.fail("the footprint must contain the robot's origin (0, 0), about which it turns");

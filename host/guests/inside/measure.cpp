@@ -23,7 +23,7 @@ namespace {
 // The key of a value: the declared name, the subject, the coordinate.
 using Key = std::tuple<std::size_t, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>;
 
-struct Collected {
+struct CollectedValues {
   const PluginInfo& info;
   std::uint32_t robot_count;
   MetricResult result;
@@ -32,14 +32,14 @@ struct Collected {
   std::size_t bytes = 0;  // of the result
 };
 
-std::int32_t refuse(Collected& collected, const char* what, const char* name, const std::string& why) {
+std::int32_t refuse(CollectedValues& collected, const char* what, const char* name, const std::string& why) {
   collected.refused = fmt::format(" (the host refused the {} '{}': {})", what, escaped(name), why);
   return DMRP_ERROR;
 }
 
 // Whether the result has room for it.
 template <class Given>
-bool has_room(Collected& collected, const Given& given) {
+bool has_room(CollectedValues& collected, const Given& given) {
   collected.bytes += bytes_of(given);
   return collected.bytes <= most_result_bytes;
 }
@@ -49,8 +49,8 @@ std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
 }
 
-Collected& collected_by(dmrp_metric_sink* sink) {
-  return *static_cast<Collected*>(sink->context);
+CollectedValues& collected_by(dmrp_metric_sink* sink) {
+  return *static_cast<CollectedValues*>(sink->context);
 }
 
 // Why a value cannot be taken; "" if it can.
@@ -64,7 +64,7 @@ std::string mistake_in(const dmrp_metric_result& c, const MetricValueSpec& spec,
   return "";
 }
 
-std::int32_t collect_value(Collected& collected, const dmrp_metric_result& theirs) {
+std::int32_t collect_value(CollectedValues& collected, const dmrp_metric_result& theirs) {
   if (!has_v1_0<dmrp_metric_result>(theirs.struct_size))
     return refuse(collected, "value", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_metric_result c = copy_struct(theirs);
@@ -83,7 +83,7 @@ std::int32_t collect_value(Collected& collected, const dmrp_metric_result& their
   return DMRP_OK;
 }
 
-std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
+std::int32_t collect_event(CollectedValues& collected, const dmrp_event& theirs) {
   if (!has_v1_0<dmrp_event>(theirs.struct_size))
     return refuse(collected, "event", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_event c = copy_struct(theirs);
@@ -111,7 +111,7 @@ std::int32_t collect_event(Collected& collected, const dmrp_event& theirs) {
   return DMRP_OK;
 }
 
-dmrp_metric_sink sink_into(Collected& collected) {
+dmrp_metric_sink sink_into(CollectedValues& collected) {
   dmrp_metric_sink sink{};
   sink.struct_size = sizeof(sink);
   sink.context = &collected;
@@ -125,7 +125,7 @@ dmrp_metric_sink sink_into(Collected& collected) {
 }
 
 // A missing value would look as if the metric had crashed. A metric need not look at what the host answers.
-void check_complete(const Collected& collected, const CallSite& site) {
+void check_complete(const CollectedValues& collected, const CallSite& site) {
   if (collected.bytes > most_result_bytes) throw PluginFault(fault_kind::bad_output, site, no_room);
   for (const MetricValueSpec& spec : collected.info.values) {
     const auto& values = collected.result.values;
@@ -159,7 +159,7 @@ void Measurement::observe(const dmrp_sample& sample) {
 }
 
 MetricResult Measurement::finish(const dmrp_trial_end& end) {
-  Collected collected = {info_, robot_count_, {index_, {}, {}}, {}};
+  CollectedValues collected = {info_, robot_count_, {index_, {}, {}}, {}};
   GrownStruct<dmrp_metric_sink> sink(sink_into(collected), metric_.grown_bytes());
   const auto call = [&] {
     return metric_.call("finish", step_, call_budget_ns_, Answers::no_other,

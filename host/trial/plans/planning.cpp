@@ -22,7 +22,7 @@ namespace {
 // The largest distance of a robot from the cell that its plan starts in, in cells.
 constexpr double snap_reach_cells = 2.0;
 
-struct Collected {
+struct CollectedPlan {
   PlannedPaths paths;
   std::vector<bool> given;
   std::vector<bool> partial;
@@ -30,16 +30,16 @@ struct Collected {
   std::string refused;  // why the last path was
 };
 
-std::int32_t refuse(Collected& collected, std::uint32_t robot, const std::string& why) {
+std::int32_t refuse(CollectedPlan& collected, std::uint32_t robot, const std::string& why) {
   collected.refused = fmt::format(" (the host refused a path for robot {}: {})", robot, why);
   return DMRP_ERROR;
 }
 
-Collected& collected_by(dmrp_plan_sink* sink) {
-  return *static_cast<Collected*>(sink->context);
+CollectedPlan& collected_by(dmrp_plan_sink* sink) {
+  return *static_cast<CollectedPlan*>(sink->context);
 }
 
-std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_path& theirs) {
+std::int32_t collect_path(CollectedPlan& collected, std::uint32_t robot, const dmrp_path& theirs) {
   if (robot >= collected.paths.size())
     return refuse(collected, robot, fmt::format("there are {} robots", collected.paths.size()));
   if (collected.given[robot]) return refuse(collected, robot, "it has a path already");
@@ -72,7 +72,7 @@ std::int32_t collect_path(Collected& collected, std::uint32_t robot, const dmrp_
   return DMRP_OK;
 }
 
-dmrp_plan_sink sink_into(Collected& collected) {
+dmrp_plan_sink sink_into(CollectedPlan& collected) {
   dmrp_plan_sink sink{};
   sink.struct_size = sizeof(sink);
   sink.context = &collected;
@@ -176,7 +176,7 @@ const dmrp_plan& Plan::view() {
 }
 
 PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step) {
-  Collected collected;
+  CollectedPlan collected;
   collected.paths.resize(problem.robot_count);
   collected.given.resize(problem.robot_count);
   GrownStruct<dmrp_plan_sink> sink(sink_into(collected), planner.grown_bytes());

@@ -9,7 +9,7 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-constexpr double sample_step_m = 0.05;
+constexpr double spline_step_m = 0.05;
 
 // Within this distance of the goal the path is straight.
 constexpr double last_leg_m = 0.5;
@@ -63,7 +63,7 @@ std::optional<double> PathShaper::smooth(const RoughPath& rough, const Observati
 // The spline and its speeds, up to the first collision. False if that is closer than `needed_m`.
 bool PathShaper::fit(const Observation& now, const FreeSpace& free_space, std::optional<double> start_theta,
                      double needed_m, std::vector<PathPoint>& path) {
-  spline_.fit(points_, start_theta, sample_step_m, path);
+  spline_.fit(points_, start_theta, spline_step_m, path);
   for (std::size_t i = 1; i < path.size(); ++i) {
     const PathPoint& point = path[i];
     if (free_space.is_free(directed(point.at, point.theta))) continue;

@@ -9,7 +9,7 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never_s = std::numeric_limits<double>::infinity();
 
 // The acceleration limit at a speed, reduced by alpha_max; `side` is 1 for accelerating, -1 for braking.
 double acceleration(const Limits& limits, double curvature, double curvature_change, double speed, double side) {
@@ -56,7 +56,7 @@ void plan_speeds(std::vector<PathPoint>& path, double start_speed, double end_sp
   path.front().time_s = 0.0;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double sum = path[i].speed + path[i + 1].speed;
-    path[i + 1].time_s = sum > 1e-9 ? path[i].time_s + 2.0 * (path[i + 1].arc_m - path[i].arc_m) / sum : infinity;
+    path[i + 1].time_s = sum > 1e-9 ? path[i].time_s + 2.0 * (path[i + 1].arc_m - path[i].arc_m) / sum : never_s;
   }
 }
 

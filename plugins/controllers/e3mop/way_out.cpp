@@ -21,7 +21,7 @@ constexpr double standing_rad_s = 0.1;
 constexpr double reach_m = 0.3;
 constexpr double driven_m = 0.2;
 constexpr double speed_m_s = 0.2;
-constexpr double check_step_m = 0.02;
+constexpr double ray_step_m = 0.02;
 
 // Directions to either side of the path's, so far apart.
 constexpr int directions_a_side = 32;
@@ -32,8 +32,8 @@ constexpr double facing_rad = 0.05;
 
 bool is_way_out(Vec2 from, double bearing, const FreeSpace& free_space) {
   DirectedPoint at = directed(from, bearing);
-  for (int step = 1; step * check_step_m <= reach_m; ++step) {
-    at.at = from + step * check_step_m * at.heading;
+  for (int step = 1; step * ray_step_m <= reach_m; ++step) {
+    at.at = from + step * ray_step_m * at.heading;
     if (!free_space.is_free(at)) return false;
   }
   return true;

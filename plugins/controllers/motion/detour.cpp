@@ -9,7 +9,7 @@ namespace dmrp::controllers {
 namespace {
 
 // The robot's place on the way is looked for up to this distance ahead.
-constexpr double search_m = 1.0;
+constexpr double ahead_m = 1.0;
 
 // A robot farther from the way than this has strayed.
 constexpr double strayed_m = 0.8;
@@ -44,7 +44,7 @@ void Detour::keep(const std::vector<Vec2>& way, double end_m) {
 
 void Detour::update(Vec2 robot, double path_progress_m) {
   if (points_.empty()) return;
-  const toolkit::PathPlace place = toolkit::project(points_, arcs_, robot, progress_m_, progress_m_ + search_m);
+  const toolkit::PathPlace place = toolkit::project(points_, arcs_, robot, progress_m_, progress_m_ + ahead_m);
   progress_m_ = place.arc_m;
   if (path_progress_m >= end_m_ || remaining_m() < driven_m || toolkit::distance(place.point, robot) > strayed_m)
     clear();

@@ -17,7 +17,7 @@ constexpr toolkit::NavigationCost walking_cost = {1.0, 2.0};
 constexpr double onward_weight = 10.0;
 
 // The size of the walking grid's cells.
-constexpr double cell_m = 0.25;
+constexpr double walking_cell_m = 0.25;
 
 // More than any scenario has. The limit keeps fields of unused places from accumulating.
 constexpr std::size_t most_places_kept = 64;
@@ -25,7 +25,7 @@ constexpr std::size_t most_places_kept = 64;
 }  // namespace
 
 const Grid& walking_grid(const dmrp_walking_grid& extension, const World& world) {
-  const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world->person_radius_m};
+  const dmrp_walking_grid_request request = {sizeof(request), 0, walking_cell_m, world->person_radius_m};
   const Grid* grid = extension.grid(&extension, &request);
   if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
   return *grid;

@@ -13,7 +13,7 @@ namespace {
 // A robot ahead holds a person up if the gap is smaller than this and the person's mean speed over this time smaller
 // than this share of the desired speed.
 constexpr double near_m = 0.8;
-constexpr double time_constant_s = 1.0;
+constexpr double trail_time_s = 1.0;
 constexpr double slow_share = 0.2;
 
 // The time after which people do something about it, drawn anew for each attempt.
@@ -30,13 +30,13 @@ constexpr double most_back_s = 4.0;
 constexpr std::uint32_t most_attempts = 4;
 
 // The encounter is over once the gap is larger than this.
-constexpr double parted_m = 4.0;
+constexpr double past_m = 4.0;
 
 double gap(const Person& person, const Agent& robot) {
   return toolkit::distance(person.position, toolkit::position(robot.pose)) - person.radius_m - robot.radius_m;
 }
 
-const Agent* nearest(const Person& person, const Span<Agent>& robots) {
+const Agent* nearest_by_gap(const Person& person, const Span<Agent>& robots) {
   const Agent* found = nullptr;
   double least_m = 0.0;
   for (const Agent& robot : robots) {
@@ -79,16 +79,16 @@ Vec2 WaysPastRobots::direction(const Person& person, Vec2 way, const Span<Agent>
   const bool is_new = encounters_.count(person.id) == 0;
   const bool is_slow = toolkit::dot(person.velocity, way) < slow_share * person.desired_speed;
   if (is_new && !is_slow) return way;  // most people
-  const Agent* const robot = nearest(person, robots);
-  if (robot == nullptr || gap(person, *robot) > (is_new ? near_m : parted_m)) return way;
+  const Agent* const robot = nearest_by_gap(person, robots);
+  if (robot == nullptr || gap(person, *robot) > (is_new ? near_m : past_m)) return way;
 
   Encounter& encounter = encounters_[person.id];
   if (is_new) begin(encounter, Does::walk, person, way);
   encounter.is_seen = true;
-  encounter.trail += (person.position - encounter.trail) * std::min(step_s / time_constant_s, 1.0);
+  encounter.trail += (person.position - encounter.trail) * std::min(step_s / trail_time_s, 1.0);
   // somebody who walks on is the way of one time constant ahead of the trail; somebody who shuffles to and fro is not
   const bool is_stuck =
-      toolkit::distance(person.position, encounter.trail) < slow_share * person.desired_speed * time_constant_s;
+      toolkit::distance(person.position, encounter.trail) < slow_share * person.desired_speed * trail_time_s;
   const Vec2 apart = toolkit::position(robot->pose) - person.position;
   const bool is_ahead = toolkit::dot(way, apart) > 0.0;
   encounter.remaining_s -= step_s;
@@ -106,7 +106,7 @@ Vec2 WaysPastRobots::direction(const Person& person, Vec2 way, const Span<Agent>
 // The trail begins where it would be if the person had walked this way at the desired speed.
 void WaysPastRobots::begin(Encounter& encounter, Does does, const Person& person, Vec2 way) const {
   encounter.does = does;
-  encounter.trail = person.position - (person.desired_speed * time_constant_s) * way;
+  encounter.trail = person.position - (person.desired_speed * trail_time_s) * way;
   encounter.held_up_s = 0.0;
   toolkit::Stream random(seed_, "pedestrian.patience", person.id, encounter.attempts);
   encounter.patience_s = random.uniform(least_patience_s, most_patience_s);
