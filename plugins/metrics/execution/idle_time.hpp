@@ -2,29 +2,31 @@
 // idle_time.hpp: the time in which robots stand still before they arrive.
 #pragma once
 
-#include <cstdint>
-#include <dmrp/plugin.hpp>
-#include <vector>
-
-#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/bases.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 
-class IdleTime final : public Metric {
+class IdleTime final : public ActiveTimeMetric<TimeCount> {
  public:
-  static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.idle_time", "Idle time")
+        .summary("time in which an active robot neither drives nor turns")
+        .source("HuNavSim, Perez-Higueras et al., RA-L 2023: time not moving")
+        .value("idle_time", "s", lower_is_better, system_and_robots,
+               "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; undefined if planning failed");
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "idle_time", &TimeCount::seconds); }
 
  private:
-  struct Times {
-    std::int64_t active_ns = 0;
-    std::int64_t idle_ns = 0;
-  };
+  static constexpr double still_speed = 0.01;  // m/s
+  static constexpr double still_omega = 0.02;  // rad/s
 
-  ActiveSteps active_;
-  std::vector<Times> times_;  // by robot
+  void add_step(TimeCount& idle, std::size_t robot, const Sample& sample) override {
+    const RobotSample& now = sample.robots[robot];
+    idle.add(speed_of(now) < still_speed && std::fabs(now.velocity.omega) < still_omega, sample.dt_ns);
+  }
 };
 
 }  // namespace dmrp::metrics

@@ -2,34 +2,74 @@
 // interventions.hpp: how often and for how long the collision monitor reduced robots' commands.
 #pragma once
 
-#include <cstdint>
-#include <dmrp/plugin.hpp>
-#include <vector>
+#include <dmrp/robot_event.h>
+
+#include "metrics/measure/bases.hpp"
 
 namespace dmrp::metrics {
 
-class Interventions final : public Metric {
+class Interventions final : public CountOfEvents {
  public:
-  static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.interventions", "Interventions")
+        .summary("how often and how long the collision monitor reduced commands ([navigation] of the experiment)")
+        .source("own definition")
+        .channels(DMRP_CHANNEL_RECOVERIES)
+        .value("interventions", "1", lower_is_better, system_and_robots,
+               "number of runs of control ticks at which the monitor reduced the robot's command; system: sum over "
+               "robots; undefined if planning failed")
+        .value("intervention_time", "s", lower_is_better, system_and_robots,
+               "time under reduced commands, from control tick to control tick; system: sum over robots; undefined if "
+               "planning failed");
+  }
+
+  void begin(const dmrp_plan* plan) override {
+    CountOfEvents::begin(plan);
+    after_control_ = false;
+    least_percent_.assign(counts_.size(), 0);
+  }
+
+  // A sample tells what was commanded at the sample before it, if that was a control tick.
+  void observe(const Sample& sample) override {
+    if (after_control_) {
+      std::vector<bool> goes_on(counts_.size(), false);
+      for (const RobotEvent& event : sample.events) {
+        if (!is(event, DMRP_ROBOT_EVENT_MONITOR)) continue;
+        intervene(event, sample);
+        goes_on[event.robot] = true;
+      }
+      for (std::size_t robot = 0; robot < counts_.size(); ++robot)
+        if (!goes_on[robot]) end_spell(robot);
+    }
+    for (std::size_t robot = 0; robot < counts_.size(); ++robot)
+      if (RobotSpell* const spell = open_spell(robot)) spell->time.to_ns = sample.t_ns;
+    after_control_ = sample.control_tick;
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override {
+    std::vector<std::int64_t> durations_ns(counts_.size(), 0);
+    for (const RobotSpell& spell : spells_) durations_ns[spell.robot] += spell.time.to_ns - spell.time.from_ns;
+    std::vector<double> durations_s;
+    for (std::size_t robot = 0; robot < counts_.size(); ++robot)
+      durations_s.push_back(std::isnan(counts_[robot]) ? undefined : in_seconds(durations_ns[robot]));
+    give_counts(sink, "interventions", Severity::info);
+    give(sink, "intervention_time", &sum_of_defined, durations_s);
+  }
 
  private:
-  struct Intervention {
-    std::size_t robot;
-    std::int64_t from_ns;
-    std::int64_t to_ns;
-    std::uint32_t least_percent;  // that was left of a command
-    Vec2 place;                   // where it began
-  };
+  void intervene(const RobotEvent& event, const Sample& sample) {
+    std::uint32_t& least = least_percent_[event.robot];
+    if (!open_spell(event.robot)) {
+      begin_spell(event, sample, "");
+      least = event.detail;
+    }
+    least = std::min(least, event.detail);
+    open_spell(event.robot)->text = "the collision monitor leaves robot " + std::to_string(event.robot) + " " +
+                                    std::to_string(least) + " % of its command";
+  }
 
-  void intervene(const RobotEvent& event, const Vec2& place);
-
-  bool after_control_ = false;               // the last sample was a control tick
-  std::vector<Intervention> interventions_;  // in order of their beginnings
-  std::vector<std::int64_t> open_;           // by robot, in interventions_; -1: there is none
-  std::vector<double> counts_;               // by robot; undefined if planning failed
+  bool after_control_ = false;                // the last sample was a control tick
+  std::vector<std::uint32_t> least_percent_;  // by robot: that its spell left of a command
 };
 
 }  // namespace dmrp::metrics

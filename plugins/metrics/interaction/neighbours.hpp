@@ -2,26 +2,37 @@
 // neighbours.hpp: the number of other robots around a robot.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-
-#include "metrics/measure/mean_count.hpp"
+#include "metrics/measure/bases.hpp"
 
 namespace dmrp::metrics {
 
-class Neighbours final : public Metric {
+class Neighbours final : public ActiveTimeMetric<TimeCount> {
  public:
-  static Descriptor describe();
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.neighbours", "Neighbours")
+        .summary("number of other robots around a robot until it arrives")
+        .source("mean of the N(t) whose variance is LDF in Hu et al., DMRP-Bench, ICRA 2026, over active time")
+        .value("neighbours", "1", Direction::none, system_and_robots,
+               "mean over active time of the number of other robots, including parked ones, within radius_m; undefined "
+               "if planning failed");
+  }
+
   Param<double> radius_m = param("radius_m", 2.0)
                                .unit("m")
                                .range(0.0, 1000.0)
                                .doc("R: robots at most this far away count, centre to centre");
 
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "neighbours", &TimeCount::mean); }
 
  private:
-  MeanCount near_;
+  void add_step(TimeCount& near, std::size_t robot, const Sample& sample) override {
+    const Vec2 position = toolkit::position(sample.robots[robot].pose);
+    const double squared_radius = radius_m * radius_m;
+    std::int64_t count = -1;  // but for itself
+    for (const RobotSample& other : sample.robots)
+      count += toolkit::squared_distance(position, toolkit::position(other.pose)) <= squared_radius;
+    near.add(count, sample.dt_ns);
+  }
 };
 
 }  // namespace dmrp::metrics

@@ -2,6 +2,7 @@
 // bodies.hpp: robots and people as discs in the world frame, and when two of them touch.
 #pragma once
 
+#include <cmath>
 #include <dmrp/plugin.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
@@ -24,6 +25,11 @@ inline Disc disc_of(const Person& person) {
 // Negative where they overlap.
 inline double surface_distance(const Disc& a, const Disc& b) {
   return toolkit::distance(a.center, b.center) - a.radius_m - b.radius_m;
+}
+
+// |v| as measured, not as commanded, m/s. (sqrt is correctly rounded in every libm, hypot is not.)
+inline double speed_of(const RobotSample& robot) {
+  return std::sqrt(robot.velocity.v_x * robot.velocity.v_x + robot.velocity.v_y * robot.velocity.v_y);
 }
 
 // The measured velocity in the world frame, m/s. (Samples hold it in the robot's frame.)

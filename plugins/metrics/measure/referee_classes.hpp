@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/bases.hpp"
 
 namespace dmrp::metrics {
 

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: MIT
-// sums.hpp: sums and moments that stay accurate over many small terms. They depend on the order of the calls.
+// sums.hpp: sums over time: accurate over many small terms, or of integers, so that only the last division rounds.
+// They depend on the order of the calls.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <vector>
+#include <dmrp/plugin.hpp>
 
 namespace dmrp::metrics {
+
+// Rounds once, so that 0.3 s is the double nearest to 0.3.
+inline double in_seconds(std::int64_t ns) {
+  return static_cast<double>(ns) / 1e9;
+}
+
+// NaN if no time was measured.
+inline double percent_of(std::int64_t part_ns, std::int64_t whole_ns) {
+  return whole_ns > 0 ? 100.0 * static_cast<double>(part_ns) / static_cast<double>(whole_ns) : undefined;
+}
 
 // Neumaier's compensated sum: its error does not grow with the number of terms.
 class CompensatedSum {
@@ -38,10 +49,9 @@ class TimeMoments {
   }
 
   // NaN if no time was added.
-  double mean() const { return total_ns_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
+  double mean() const { return total_ns_ > 0 ? mean_ : undefined; }
   double standard_deviation() const {
-    if (total_ns_ == 0) return std::numeric_limits<double>::quiet_NaN();
-    return std::sqrt(std::fmax(0.0, squares_) / static_cast<double>(total_ns_));
+    return total_ns_ > 0 ? std::sqrt(std::fmax(0.0, squares_) / static_cast<double>(total_ns_)) : undefined;
   }
 
  private:
@@ -50,16 +60,37 @@ class TimeMoments {
   double squares_ = 0.0;
 };
 
-// The mean of the values that are not NaN; NaN if there are none.
-inline double mean_of_defined(const std::vector<double>& values) {
-  CompensatedSum sum;
-  std::size_t count = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    sum.add(value);
-    ++count;
+// The integral over time of a count, or of a condition: 1 while it holds. NaN if no time was added.
+class TimeCount {
+ public:
+  void add(std::int64_t count, std::int64_t duration_ns) {
+    counted_ns_ += count * duration_ns;
+    whole_ns_ += duration_ns;
   }
-  return count > 0 ? sum.value() / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
-}
+
+  double seconds() const { return whole_ns_ > 0 ? in_seconds(counted_ns_) : undefined; }
+  double mean() const {
+    return whole_ns_ > 0 ? static_cast<double>(counted_ns_) / static_cast<double>(whole_ns_) : undefined;
+  }
+  double percent() const { return percent_of(counted_ns_, whole_ns_); }
+
+ private:
+  std::int64_t counted_ns_ = 0;
+  std::int64_t whole_ns_ = 0;
+};
+
+// The length of a union of time spans, which must be added in the order of their beginnings.
+class UnionLength {
+ public:
+  void add(std::int64_t from_ns, std::int64_t to_ns) {
+    length_ns_ += std::max<std::int64_t>(0, to_ns - std::max(from_ns, covered_to_ns_));
+    covered_to_ns_ = std::max(covered_to_ns_, to_ns);
+  }
+  std::int64_t value_ns() const { return length_ns_; }
+
+ private:
+  std::int64_t covered_to_ns_ = INT64_MIN;
+  std::int64_t length_ns_ = 0;
+};
 
 }  // namespace dmrp::metrics

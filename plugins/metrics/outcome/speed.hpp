@@ -2,24 +2,32 @@
 // speed.hpp: mean and standard deviation of the robots' speeds.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-#include <vector>
-
-#include "metrics/measure/active_steps.hpp"
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/bases.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 
-class Speed final : public Metric {
+class Speed final : public ActiveTimeMetric<TimeMoments> {
  public:
-  static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.speed", "Speed")
+        .summary("each robot's measured speed until it arrives")
+        .source("Hu et al., DMRP-Bench, ICRA 2026: mean speed, speed standard deviation")
+        .value("mean_speed", "m/s", higher_is_better, system_and_robots,
+               "mean over active time of the robot's measured |v|; undefined if planning failed")
+        .value("speed_sd", "m/s", lower_is_better, system_and_robots,
+               "standard deviation over active time of the robot's measured |v|; undefined if planning failed");
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override {
+    give_mean(sink, "mean_speed", &TimeMoments::mean);
+    give_mean(sink, "speed_sd", &TimeMoments::standard_deviation);
+  }
 
  private:
-  ActiveSteps active_;
-  std::vector<TimeMoments> speed_;
+  void add_step(TimeMoments& speed, std::size_t robot, const Sample& sample) override {
+    speed.add(speed_of(sample.robots[robot]), sample.dt_ns);
+  }
 };
 
 }  // namespace dmrp::metrics

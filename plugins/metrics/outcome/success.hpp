@@ -2,19 +2,91 @@
 // success.hpp: robots that arrived, and robots that did so without a contact at their fault.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-#include <vector>
+#include "metrics/measure/contact_fault.hpp"
+#include "metrics/measure/values.hpp"
 
 namespace dmrp::metrics {
 
 class Success final : public Metric {
  public:
-  static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.success", "Success")
+        .summary("robots that reached their last goal in time, and those that did so safely")
+        .source(
+            "success rate: Hu et al., DMRP-Bench, ICRA 2026; passive motion safety: Bouraine, Fraichard, Salhi, "
+            "Autonomous Robots 32, 2012")
+        .value("success", "1", higher_is_better, system_and_robots,
+               "1 if the robot arrived by the time limit and was not failed by the host, else 0")
+        .value("trial_success", "1", higher_is_better, Subjects::system,
+               "1 if every robot succeeded, else 0; undefined without robots")
+        .value("safe_success", "1", higher_is_better, system_and_robots,
+               "1 if the robot succeeded and at every contact was at rest (below 0.05 m/s) or moving away from the "
+               "other when they touched, else 0 (passive motion safety)")
+        .value("contact_free_success", "1", higher_is_better, system_and_robots,
+               "1 if the robot succeeded without any contact, else 0");
+  }
+
+  void begin(const dmrp_plan*) override {
+    at_fault_.assign(world().robots().size(), false);
+    touched_.assign(world().robots().size(), false);
+  }
+
+  void observe(const Sample& sample) override {
+    for (const Contact& contact : sample.contacts) {
+      if (!is_known(contact)) continue;
+      touched_[contact.a] = true;
+      if (fault_of_a(contact)) at_fault_[contact.a] = true;
+      if (!between_robots(contact)) continue;
+      touched_[contact.b] = true;
+      if (fault_of_b(contact)) at_fault_[contact.b] = true;
+    }
+  }
+
+  void finish(const TrialEnd& end, MetricSink& sink) override {
+    std::vector<double> success, safe_success, contact_free_success;
+    for (std::uint32_t robot = 0; robot < at_fault_.size(); ++robot) {
+      const RobotEnd& own = end.robots[robot];
+      success.push_back(succeeded(own) ? 1.0 : 0.0);
+      safe_success.push_back(succeeded(own) && !at_fault_[robot] ? 1.0 : 0.0);
+      contact_free_success.push_back(succeeded(own) && !touched_[robot] ? 1.0 : 0.0);
+      if (succeeded(own)) continue;
+      std::vector<std::uint32_t> robots = {robot};  // and the culprit
+      if (own.culprit < end.robots.size()) robots.push_back(own.culprit);
+      give_event(sink, "success", {end.t_ns, end.t_ns}, robots,
+                 "robot " + std::to_string(robot) + " failed: " + reason(own.failure));
+    }
+    give(sink, "success", &mean_of_defined, success);
+    sink.system("trial_success", least_of_defined(success));
+    give(sink, "safe_success", &mean_of_defined, safe_success);
+    give(sink, "contact_free_success", &mean_of_defined, contact_free_success);
+  }
 
  private:
+  static const char* reason(std::uint32_t failure) {
+    switch (failure) {
+      case DMRP_FAILURE_TIMEOUT:
+        return "time limit";
+      case DMRP_FAILURE_OSCILLATION:
+        return "oscillation";
+      case DMRP_FAILURE_CONTROLLER:
+        return "no command from its controller";
+      case DMRP_FAILURE_NO_PLAN:
+        return "no plan";
+      case DMRP_FAILURE_HELD_BEHIND:
+        return "held behind another robot";
+      case DMRP_FAILURE_CIRCLING:
+        return "circling";
+      case DMRP_FAILURE_BLOCKED_PERSON:
+        return "blocked by a person";
+      case DMRP_FAILURE_BLOCKED_ROBOT:
+        return "blocked by a robot";
+      case DMRP_FAILURE_STUCK:
+        return "stuck";
+      default:
+        return "unknown reason";
+    }
+  }
+
   std::vector<char> at_fault_;  // by robot: whether it had a contact at its fault
   std::vector<char> touched_;   // by robot: whether it had any contact
 };

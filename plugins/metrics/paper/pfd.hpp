@@ -2,38 +2,90 @@
 // pfd.hpp: path following deviation: the distance of robots from their planned paths.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-#include <vector>
+#include <dmrp/toolkit/segment.hpp>
 
-#include "metrics/measure/active_steps.hpp"
-#include "metrics/measure/sums.hpp"
+#include "metrics/measure/bases.hpp"
 
 namespace dmrp::metrics {
 
-class Pfd final : public Metric {
+// A robot's distances from its path. All statistics are NaN without a distance.
+struct PathDeviation {
+  CompensatedSum sum_m;
+  std::size_t count = 0;
+  double greatest_m = undefined;
+  double running_mean_m = 0.0;  // Welford (1962)
+  double squares = 0.0;         // sum of squared differences from the mean
+
+  void add(double distance_m) {
+    sum_m.add(distance_m);
+    ++count;
+    greatest_m = std::fmax(greatest_m, distance_m);
+    const double before = distance_m - running_mean_m;
+    running_mean_m += before / static_cast<double>(count);
+    squares += before * (distance_m - running_mean_m);
+  }
+
+  double mean_m() const { return count > 0 ? sum_m.value() / static_cast<double>(count) : undefined; }
+
+  // normalised by n
+  double standard_deviation_m() const {
+    return count > 0 ? std::sqrt(std::fmax(0.0, squares) / static_cast<double>(count)) : undefined;
+  }
+};
+
+struct PathDeviations {
+  PathDeviation in_force, initial;
+};
+
+class Pfd final : public ActiveTimeMetric<PathDeviations> {
  public:
-  static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.pfd", "Path following deviation")
+        .summary("mean distance of the robots from their planned paths")
+        .source("Hu et al., DMRP-Bench, ICRA 2026: PFD")
+        .value("pfd", "m", lower_is_better, system_and_robots,
+               "mean over the control steps of active time of the distance from the robot to the closest point of its "
+               "current path; undefined if planning failed")
+        .value("pfd_max", "m", lower_is_better, system_and_robots,
+               "maximum of the same distances; system: maximum over robots; undefined if planning failed")
+        .value("pfd_sd", "m", lower_is_better, system_and_robots,
+               "standard deviation (normalised by n) of the same distances; undefined if planning failed")
+        .value("pfd_initial", "m", lower_is_better, system_and_robots,
+               "pfd relative to the first plan; undefined if planning failed");
+  }
+
+  void begin(const dmrp_plan* plan) override {
+    ActiveTimeMetric::begin(plan);
+    first_plan_ = plan;
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override {
+    give_mean(sink, "pfd", [](const PathDeviations& own) { return own.in_force.mean_m(); });
+    give_of_states(sink, "pfd_max", &greatest_of_defined,
+                   [](const PathDeviations& own) { return own.in_force.greatest_m; });
+    give_mean(sink, "pfd_sd", [](const PathDeviations& own) { return own.in_force.standard_deviation_m(); });
+    give_mean(sink, "pfd_initial", [](const PathDeviations& own) { return own.initial.mean_m(); });
+  }
 
  private:
-  // One robot's distances. All statistics are NaN without a distance.
-  struct Deviation {
-    CompensatedSum sum_m;
-    std::size_t count = 0;
-    double greatest_m = undefined;
-    double running_mean_m = 0.0;  // Welford (1962)
-    double squares = 0.0;         // sum of squared differences from the mean
-    void add(double distance_m);
-    double mean_m() const;
-    double standard_deviation_m() const;  // normalised by n
-  };
+  // From a point to the closest point of a non-empty path; waits are segments of length zero.
+  static double distance_to(const Path& path, Vec2 point) {
+    double nearest = toolkit::squared_distance(toolkit::position(path[0]), point);
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Segment segment = {toolkit::position(path[i - 1]), toolkit::position(path[i])};
+      nearest = std::min(nearest, toolkit::squared_distance(segment, point));
+    }
+    return std::sqrt(nearest);
+  }
+
+  void add_step(PathDeviations& own, std::size_t robot, const Sample& sample) override {
+    if (!sample.control_tick) return;
+    const Vec2 position = toolkit::position(sample.robots[robot].pose);
+    if (sample.plan) own.in_force.add(distance_to(Plan(*sample.plan).path(robot), position));
+    if (first_plan_) own.initial.add(distance_to(Plan(*first_plan_).path(robot), position));
+  }
 
   const dmrp_plan* first_plan_ = nullptr;
-  ActiveSteps active_;
-  std::vector<Deviation> in_force_;
-  std::vector<Deviation> initial_;
 };
 
 }  // namespace dmrp::metrics

@@ -2,45 +2,110 @@
 // clearance.hpp: distances of robots to walls, robots and people, and the share of time below a safe distance.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-#include <vector>
-
-#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/bases.hpp"
 #include "metrics/measure/nearest_wall.hpp"
-#include "metrics/measure/sums.hpp"
-#include "metrics/measure/time_share.hpp"
+#include "metrics/measure/surface_distance.hpp"
 
 namespace dmrp::metrics {
 
-class Clearance final : public Metric {
+// Distances of one robot to one kind of neighbour.
+struct ClearanceTo {
+  double least_m = undefined;
+  TimeMoments mean_m;
+
+  void add(double distance_m, std::int64_t duration_ns) {
+    least_m = std::fmin(least_m, distance_m);
+    mean_m.add(distance_m, duration_ns);
+  }
+};
+
+struct ClearanceOfRobot {
+  NearestWall wall;
+  ClearanceTo walls, robots, people;
+  TimeCount danger, danger_of_robots, danger_of_people;
+};
+
+class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
  public:
-  static Descriptor describe();
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.clearance", "Clearance")
+        .summary("surface distances to walls, robots and people, and the time below a safe distance")
+        .source("Wen et al., MRPB 1.0, ICRA 2021: distance to obstacles, time in the dangerous area")
+        .channels(DMRP_CHANNEL_PEOPLE)
+        .value("clearance_static_min", "m", higher_is_better, system_and_robots,
+               "minimum over active time of the surface distance to the nearest shape or border; system: minimum over "
+               "robots; undefined if planning failed")
+        .value("clearance_static_mean", "m", higher_is_better, system_and_robots,
+               "mean over active time of the same distance; undefined if planning failed")
+        .value("clearance_robot_min", "m", higher_is_better, system_and_robots,
+               "minimum over active time of the surface distance to the nearest other robot, including parked ones; "
+               "system: minimum over robots; undefined without another robot")
+        .value("clearance_robot_mean", "m", higher_is_better, system_and_robots,
+               "mean over active time of the same distance; undefined without another robot")
+        .value("clearance_person_min", "m", higher_is_better, system_and_robots,
+               "minimum over active time of the surface distance to the nearest person; system: minimum over robots; "
+               "undefined without people")
+        .value("clearance_person_mean", "m", higher_is_better, system_and_robots,
+               "mean over active time with people present of the same distance; undefined without people")
+        .value("danger_time", "%", lower_is_better, system_and_robots,
+               "share of active time in which any of the three distances is below safe_distance_m; undefined if "
+               "planning failed")
+        .value("danger_time_robot", "%", lower_is_better, system_and_robots,
+               "share of active time in which the nearest robot is closer than safe_distance_m; undefined without "
+               "another robot")
+        .value("danger_time_person", "%", lower_is_better, system_and_robots,
+               "share of active time with people present in which the nearest is closer than safe_distance_m; "
+               "undefined without people");
+  }
+
   Param<double> safe_distance_m = param("safe_distance_m", 0.3)
                                       .unit("m")
                                       .range(0.0, 100.0)
                                       .doc("d_safe: surface distances below this count as danger");
 
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  void begin(const dmrp_plan* plan) override {
+    ActiveTimeMetric::begin(plan);
+    for (ClearanceOfRobot& own : states_) own.wall.begin(world());
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override {
+    give_distances(sink, "clearance_static_min", "clearance_static_mean", &ClearanceOfRobot::walls);
+    give_distances(sink, "clearance_robot_min", "clearance_robot_mean", &ClearanceOfRobot::robots);
+    give_distances(sink, "clearance_person_min", "clearance_person_mean", &ClearanceOfRobot::people);
+    give_mean(sink, "danger_time", [](const ClearanceOfRobot& own) { return own.danger.percent(); });
+    give_mean(sink, "danger_time_robot", [](const ClearanceOfRobot& own) { return own.danger_of_robots.percent(); });
+    give_mean(sink, "danger_time_person", [](const ClearanceOfRobot& own) { return own.danger_of_people.percent(); });
+  }
 
  private:
-  // Distances of one robot to one kind of neighbour.
-  struct Distances {
-    double least_m = undefined;
-    TimeMoments mean_m;
-    void add(double distance_m, std::int64_t duration_ns);
-  };
-  struct RobotDistances {
-    NearestWall wall;
-    Distances to_static, to_robots, to_people;
-    TimeShare danger, danger_robots, danger_people;
-  };
+  void give_distances(MetricSink& sink, const char* least, const char* mean, ClearanceTo ClearanceOfRobot::*to) const {
+    give_of_states(sink, least, &least_of_defined, [&](const ClearanceOfRobot& own) { return (own.*to).least_m; });
+    give_mean(sink, mean, [&](const ClearanceOfRobot& own) { return (own.*to).mean_m.mean(); });
+  }
 
-  void measure(const Sample& sample, std::size_t robot);
+  void add_step(ClearanceOfRobot& own, std::size_t robot, const Sample& sample) override {
+    const Outline body = outline_of(world().robots()[robot], sample.robots[robot]);
+    const double to_wall_m = body.parts.empty() ? own.wall.find(body.disc.center).distance_m - body.disc.radius_m
+                                                : distance_to_walls(body, world());
+    own.walls.add(to_wall_m, sample.dt_ns);
+    bool danger = to_wall_m < safe_distance_m;
 
-  ActiveSteps active_;
-  std::vector<RobotDistances> distances_;  // by robot
+    NearestBody nearest_robot(body);
+    for (std::size_t other = 0; other < states_.size(); ++other)
+      if (other != robot) nearest_robot.add(outline_of(world().robots()[other], sample.robots[other]));
+    NearestBody nearest_person(body);
+    for (const Person& person : sample.people) nearest_person.add(outline_of(person));
+
+    const auto add = [&](double distance_m, ClearanceTo& to, TimeCount& share) {
+      if (std::isnan(distance_m)) return;
+      to.add(distance_m, sample.dt_ns);
+      share.add(distance_m < safe_distance_m, sample.dt_ns);
+      danger = danger || distance_m < safe_distance_m;
+    };
+    add(nearest_robot.distance_m(), own.robots, own.danger_of_robots);
+    add(nearest_person.distance_m(), own.people, own.danger_of_people);
+    own.danger.add(danger, sample.dt_ns);
+  }
 };
 
 }  // namespace dmrp::metrics

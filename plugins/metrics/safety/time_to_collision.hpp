@@ -2,33 +2,61 @@
 // time_to_collision.hpp: the time until a robot would hit somebody if all kept their velocities.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-#include <vector>
-
-#include "metrics/measure/active_steps.hpp"
+#include "metrics/measure/bases.hpp"
 #include "metrics/measure/bodies.hpp"
-#include "metrics/measure/time_share.hpp"
 
 namespace dmrp::metrics {
 
-class TimeToCollision final : public Metric {
+struct TimesToCollision {
+  double least_s = undefined;
+  TimeCount low;
+};
+
+class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
  public:
-  static Descriptor describe();
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.time_to_collision", "Time to collision")
+        .summary("time until a robot would touch another robot or a person at constant velocities")
+        .source(
+            "Hayward, Near-miss determination through use of a scale of danger, 1972; as in SocNavBench, Biswas et al. "
+            "2022, with the radii of both")
+        .channels(DMRP_CHANNEL_PEOPLE)
+        .value(
+            "ttc_min", "s", higher_is_better, system_and_robots,
+            "minimum over active time and over robots and people of the smallest tau > 0 with |dp + dv tau| = r + r'; "
+            "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course")
+        .value("ttc_low_time", "%", lower_is_better, system_and_robots,
+               "share of active time in which a time to collision is below threshold_s; undefined without another "
+               "robot or person");
+  }
+
   Param<double> threshold_s =
       param("threshold_s", 1.5).unit("s").range(0.0, 1000.0).doc("a time to collision below this is a conflict");
 
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  void observe(const Sample& sample) override {
+    robots_.clear();
+    for (std::size_t robot = 0; robot < states_.size(); ++robot)
+      robots_.push_back(moving(world().robots()[robot], sample.robots[robot]));
+    ActiveTimeMetric::observe(sample);
+  }
+
+  void finish(const TrialEnd&, MetricSink& sink) override {
+    give_of_states(sink, "ttc_min", &least_of_defined, &TimesToCollision::least_s);
+    give_mean(sink, "ttc_low_time", [](const TimesToCollision& times) { return times.low.percent(); });
+  }
 
  private:
-  struct Times {
-    double least_s = undefined;
-    TimeShare below;
-  };
+  void add_step(TimesToCollision& times, std::size_t robot, const Sample& sample) override {
+    if (robots_.size() + sample.people.size() < 2) return;
+    double soonest_s = undefined;
+    for (std::size_t other = 0; other < robots_.size(); ++other)
+      if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], robots_[other]));
+    for (const Person& person : sample.people)
+      soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], moving(person)));
+    times.least_s = std::fmin(times.least_s, soonest_s);
+    times.low.add(soonest_s < threshold_s, sample.dt_ns);
+  }
 
-  ActiveSteps active_;
-  std::vector<Times> times_;    // by robot
   std::vector<Moving> robots_;  // at the sample
 };
 

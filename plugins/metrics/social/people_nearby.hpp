@@ -2,24 +2,36 @@
 // people_nearby.hpp: the number of people around a robot.
 #pragma once
 
-#include <dmrp/plugin.hpp>
-
-#include "metrics/measure/mean_count.hpp"
+#include "metrics/measure/bases.hpp"
 
 namespace dmrp::metrics {
 
-class PeopleNearby final : public Metric {
+class PeopleNearby final : public ActiveTimeMetric<TimeCount> {
  public:
-  static Descriptor describe();
+  static Descriptor describe() {
+    return describe_metric("dmrp.metric.people_nearby", "People nearby")
+        .summary("density of the crowd around the robots")
+        .source("own definition")
+        .channels(DMRP_CHANNEL_PEOPLE)
+        .value(
+            "people_nearby", "1", Direction::none, system_and_robots,
+            "mean over active time of the number of people within radius_m of the robot; undefined if planning failed");
+  }
+
   Param<double> radius_m =
       param("radius_m", 5.0).unit("m").range(0.0, 1000.0).doc("people at most this far away, centre to centre, count");
 
-  void begin(const dmrp_plan* plan) override;
-  void observe(const Sample& sample) override;
-  void finish(const TrialEnd& end, MetricSink& sink) override;
+  void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "people_nearby", &TimeCount::mean); }
 
  private:
-  MeanCount near_;
+  void add_step(TimeCount& near, std::size_t robot, const Sample& sample) override {
+    const Vec2 position = toolkit::position(sample.robots[robot].pose);
+    const double squared_radius = radius_m * radius_m;
+    std::int64_t count = 0;
+    for (const Person& person : sample.people)
+      count += toolkit::squared_distance(position, person.position) <= squared_radius;
+    near.add(count, sample.dt_ns);
+  }
 };
 
 }  // namespace dmrp::metrics
