@@ -7,16 +7,6 @@
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
 
-namespace {
-
-dmrp_robot_sample facing(double x, double y, double theta) {
-  dmrp_robot_sample robot = at(x, y);
-  robot.pose.theta = theta;
-  return robot;
-}
-
-}  // namespace
-
 TEST_CASE("known bug: jerk as dv/dt^2 (HuNavSim)") {
   // under a constant acceleration of 0.5 m/s^2 there is no jerk; dv/dt^2 would be 0.25 / 0.5^2 = 1
   SyntheticTrial trial(1);

@@ -30,6 +30,12 @@
 namespace dmrp::test {
 
 constexpr double never = -1.0;  // as a time of arrival
+constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
+
+// Of contacts.
+constexpr std::uint32_t begins = DMRP_CONTACT_BEGINS;
+constexpr std::uint32_t fault_a = DMRP_CONTACT_FAULT_A;
+constexpr std::uint32_t fault_b = DMRP_CONTACT_FAULT_B;
 
 inline std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
@@ -42,6 +48,16 @@ inline dmrp_robot_sample at(double x, double y, double speed = 0.0, std::uint32_
   robot.velocity.v_x = speed;
   robot.state = state;
   return robot;
+}
+
+inline dmrp_robot_sample facing(double x, double y, double theta, std::uint32_t state = DMRP_ROBOT_ACTIVE) {
+  dmrp_robot_sample robot = at(x, y, 0.0, state);
+  robot.pose.theta = theta;
+  return robot;
+}
+
+inline dmrp_waypoint waypoint(double x, double y, double t_s) {
+  return {x, y, std::nan(""), nanoseconds(t_s), 0, 0};
 }
 
 inline dmrp_contact contact(std::uint32_t kind, std::uint32_t a, std::uint32_t b, std::uint32_t flags) {

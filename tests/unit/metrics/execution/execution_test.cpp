@@ -12,14 +12,6 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-
-dmrp_robot_sample pose(double x, double y, double theta, std::uint32_t state = DMRP_ROBOT_ACTIVE) {
-  dmrp_robot_sample robot = at(x, y, 0.0, state);
-  robot.pose.theta = theta;
-  return robot;
-}
-
 dmrp_call call(std::uint32_t kind, std::uint32_t robot, double milliseconds, std::int32_t status = DMRP_OK) {
   return {kind, robot, status, 0, std::llround(milliseconds * 1e6)};
 }
@@ -31,14 +23,14 @@ TEST_CASE("path irregularity is the turning beyond the least that the goals need
   trial.plan({{{0, 0}}});
   // east to (4, 0), then north to (4, 3), there to face west; begins facing north: least 90 + 90 + 90 degrees
   trial.route(0, {0, 0, 0.5 * M_PI}, {{4, 0, 1.0}, {4, 3, M_PI}});
-  trial.sample(0.0, {pose(0, 0, 0.5 * M_PI)});
-  trial.sample(1.0, {pose(0, 0, -0.1)});          // pi/2 + 0.1
-  trial.sample(2.0, {pose(2, 0, 0.1)});           // 0.2
-  trial.sample(3.0, {pose(4, 0, 0.0)});           // 0.1
-  trial.sample(4.0, {pose(4, 0, 0.5 * M_PI)});    // pi/2
-  trial.sample(5.0, {pose(4, 3, 0.5 * M_PI)});    // 0
-  trial.sample(6.0, {pose(4, 3, M_PI, parked)});  // pi/2, the step of the arrival
-  trial.sample(7.0, {pose(4, 3, -1.0, parked)});  // parked: not counted
+  trial.sample(0.0, {facing(0, 0, 0.5 * M_PI)});
+  trial.sample(1.0, {facing(0, 0, -0.1)});          // pi/2 + 0.1
+  trial.sample(2.0, {facing(2, 0, 0.1)});           // 0.2
+  trial.sample(3.0, {facing(4, 0, 0.0)});           // 0.1
+  trial.sample(4.0, {facing(4, 0, 0.5 * M_PI)});    // pi/2
+  trial.sample(5.0, {facing(4, 3, 0.5 * M_PI)});    // 0
+  trial.sample(6.0, {facing(4, 3, M_PI, parked)});  // pi/2, the step of the arrival
+  trial.sample(7.0, {facing(4, 3, -1.0, parked)});  // parked: not counted
   trial.end(7.0, {6.0});
   const Measurement m = measure("dmrp.metric.smoothness", trial);
   CHECK_THAT(m.system("heading_change"), WithinAbs(1.5 * M_PI + 0.4, 1e-14));
@@ -49,7 +41,7 @@ TEST_CASE("path irregularity is 0 for a robot that turned less than needed, unde
   SyntheticTrial trial(2);
   trial.plan({{{0, 0}}, {{0, 0}}});
   trial.route(0, {0, 0, 0}, {{-9, 0, std::nan("")}}).route(1, {0, 0, 0}, {{-9, 0, std::nan("")}});
-  trial.sample(0.0, {pose(0, 0, 0), pose(0, 0, 0)}).sample(1.0, {pose(1, 0, 0.5), pose(0, 0, 0.5)}).end(1.0);
+  trial.sample(0.0, {facing(0, 0, 0), facing(0, 0, 0)}).sample(1.0, {facing(1, 0, 0.5), facing(0, 0, 0.5)}).end(1.0);
   const Measurement m = measure("dmrp.metric.smoothness", trial);
   CHECK(m.robot("path_irregularity", 0) == 0.0);
   CHECK(std::isnan(m.robot("path_irregularity", 1)));

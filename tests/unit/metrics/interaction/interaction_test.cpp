@@ -10,8 +10,6 @@ using namespace dmrp::test;
 
 namespace {
 
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-
 // Two samples a second from 0 to `end_s`, the robots as `at_time` says.
 void fill(SyntheticTrial& trial, double begin_s, double end_s,
           const std::function<std::vector<dmrp_robot_sample>(double)>& at_time) {

@@ -8,15 +8,6 @@
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
 
-namespace {
-
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-constexpr std::uint32_t begins = DMRP_CONTACT_BEGINS;
-constexpr std::uint32_t fault_a = DMRP_CONTACT_FAULT_A;
-constexpr std::uint32_t fault_b = DMRP_CONTACT_FAULT_B;
-
-}  // namespace
-
 TEST_CASE("success is the share of robots that arrived and were not failed") {
   SyntheticTrial trial(4);
   trial.plan({{{0, 0}}, {{3, 0}}, {{6, 0}}, {{9, 0}}});

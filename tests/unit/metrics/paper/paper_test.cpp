@@ -9,8 +9,6 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-
 // A trial of one second a step with these speeds, standing at these places all the time (measured speed and position
 // are separate things to a metric).
 SyntheticTrial crawling(const std::vector<dmrp_vec2>& places, const std::vector<std::vector<double>>& speeds) {
@@ -101,9 +99,6 @@ TEST_CASE("STO counts the way of a robot that leaves its goal and returns") {
 }
 
 TEST_CASE("STO resamples at the step duration") {
-  const auto waypoint = [](double x, double y, double t_s) {
-    return dmrp_waypoint{x, y, std::nan(""), nanoseconds(t_s), 0, 0};
-  };
   SyntheticTrial trial(2);
   // robot 0 along x at 0.4 m a step: 0, 0.4, 0.8, then its goal (1, 0) at step 3, reached at 2.5 s. Robot 1 gives its
   // turning points only: 0 to 3 s down to (0.8, 1), then at (0.8, 0) after 4 s.

@@ -9,9 +9,6 @@ using namespace dmrp::test;
 
 namespace {
 
-constexpr std::uint32_t begins = DMRP_CONTACT_BEGINS;
-constexpr std::uint32_t fault_a = DMRP_CONTACT_FAULT_A;
-constexpr std::uint32_t fault_b = DMRP_CONTACT_FAULT_B;
 constexpr std::uint32_t with_static = DMRP_CONTACT_STATIC;
 constexpr std::uint32_t with_robot = DMRP_CONTACT_ROBOT;
 constexpr std::uint32_t with_person = DMRP_CONTACT_PERSON;

@@ -14,8 +14,6 @@ using dmrp::toolkit::Stream;
 
 namespace {
 
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-
 dmrp_person person(double x, double y, double v_x = 0.0, double v_y = 0.0, double radius_m = 0.3) {
   dmrp_person person{};
   person.position = {x, y};

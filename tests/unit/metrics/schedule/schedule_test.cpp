@@ -14,10 +14,6 @@ dmrp_robot_sample at_arc(double x, double progress_m) {
   return robot;
 }
 
-dmrp_waypoint waypoint(double x, double y, double t_s) {
-  return {x, y, std::nan(""), nanoseconds(t_s), 0, 0};
-}
-
 }  // namespace
 
 TEST_CASE("schedule error: a waypoint is passed when the progress reaches it; waits count once") {

@@ -9,8 +9,6 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr std::uint32_t parked = DMRP_ROBOT_FINISHED;
-
 dmrp_person person(double x, double y, std::uint32_t group = 0) {
   dmrp_person person{};
   person.position = {x, y};
