@@ -5,13 +5,18 @@
 # `build/TREE/tests/NAME "name of a test case"` runs a single test case. Catch's main is linked, never compiled.
 # A test whose output has "skipped: " counts as SKIPPED.
 #
-#   unit tests           the target `units` builds them, not `all`; labels FOLDER and unit. CI runs them in the preset
-#                        clang, under sanitizers
-#   WITHOUT_SANITIZERS   for what sanitizers would change or make too slow: part of `all`, label FOLDER; absent where
-#                        there are sanitizers. CI runs it in the preset release
+# Labels: FOLDER and unit. CI runs these tests in the presets release and clang, the latter under sanitizers.
 #
-# The target tests_FOLDER builds the programs of one folder.
+#   WITHOUT_SANITIZERS   for what sanitizers would change or make too slow: absent where there are sanitizers
+#
+# The target tests_FOLDER builds the programs of one folder, the target `units` all of them.
 add_custom_target(units)
+
+# dmrp_run_nightly(TEST...): these tests of this folder cost more than they tell before each change: the preset nightly runs
+# them, release does not.
+function(dmrp_run_nightly)
+  set_property(TEST ${ARGN} APPEND PROPERTY LABELS nightly)
+endfunction()
 
 function(dmrp_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "WITHOUT_SANITIZERS" "" "SOURCES;LIBRARIES")
@@ -20,7 +25,7 @@ function(dmrp_add_test name)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME area)
 
-  add_executable(${name} EXCLUDE_FROM_ALL ${test_SOURCES})
+  add_executable(${name} ${test_SOURCES})
   target_compile_definitions(${name} PRIVATE DMRP_TEST_DATA="${DMRP_TEST_DATA}"
                                              $<$<BOOL:${DMRP_FEWER_DRAWS}>:DMRP_FEWER_DRAWS>)
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} dmrp_test_settings Catch2::Catch2WithMain)
@@ -31,20 +36,16 @@ function(dmrp_add_test name)
   endif()
   add_dependencies(tests_${area} ${name})
 
-  set(labels ${area})
-  if(NOT test_WITHOUT_SANITIZERS)
-    list(APPEND labels unit)
-    add_dependencies(units ${name})
-  elseif(DMRP_SANITIZE)
+  if(test_WITHOUT_SANITIZERS AND DMRP_SANITIZE)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
-  else()
-    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL OFF)
   endif()
+  add_dependencies(units ${name})
   foreach(source IN LISTS test_SOURCES)
     if(source MATCHES "^(.*/)?([^/]+)_test\\.cpp$")
       set(test ${area}/${CMAKE_MATCH_1}${CMAKE_MATCH_2})
       add_test(NAME ${test} COMMAND ${name} --warn NoTests --filenames-as-tags "[#${CMAKE_MATCH_2}_test]")
-      set_tests_properties(${test} PROPERTIES LABELS "${labels}" SKIP_REGULAR_EXPRESSION "skipped: ")
+      set_tests_properties(${test} PROPERTIES LABELS "${area};unit" SKIP_REGULAR_EXPRESSION "skipped: ")
     endif()
   endforeach()
 endfunction()

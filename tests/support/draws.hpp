@@ -4,8 +4,8 @@
 
 namespace dmrp::test {
 
-// All; in .ci/run under sanitizers a quarter, at least one: instrumented code takes ten times as long, and what the
-// sanitizers look for depends on which lines run, which the first draws decide. .ci/nightly tries all under sanitizers.
+// A quarter, at least one: most faults show in the first draws, as does what sanitizers look for, which depends on the
+// lines that run. All in .ci/nightly, with and without sanitizers.
 template <class Count>
 constexpr Count draws(Count all) {
 #ifdef DMRP_FEWER_DRAWS
