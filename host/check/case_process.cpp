@@ -168,15 +168,12 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   Descriptor note_memory = make_call_note();
   const std::int64_t start_ns = monotonic_ns();
   const bool counts_resident = plugin && plugin->has_flag(DMRP_FLAG_RESIDENT_MEMORY);
-  const std::int64_t group_mb = counts_resident ? 0 : memory_mb;
   const std::string info = plugin ? nlohmann::json(*plugin).dump() : "";
-  const std::unique_ptr<ChildProcess> started =
-      nursery.start({GuestOrder::Program::check_case,
-                     {check_case.name, file.string(), info, std::to_string(seed),
-                      std::to_string(MemoryGroup::available() ? 0 : group_mb)},
-                     what_shows({"", file, {}}),
-                     {answer_file.descriptor(), output.descriptor(), note_memory.number()}},
-                    group_mb);
+  const std::unique_ptr<ChildProcess> started = nursery.start(
+      {GuestOrder::Program::check_case,
+       {check_case.name, file.string(), info, std::to_string(seed), std::to_string(counts_resident ? 0 : memory_mb)},
+       what_shows({"", file, {}}),
+       {answer_file.descriptor(), output.descriptor(), note_memory.number()}});
   ChildProcess& child = *started;
   const SharedCallNote note(std::move(note_memory));
   child.allow_cpu(processor_time_s(case_limit_s()));

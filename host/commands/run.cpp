@@ -179,6 +179,9 @@ int run_command(const RunOptions& options) {
   if (!options.quiet)
     for (const std::string& warning : experiment.warnings) warn(warning);
   if (const std::string gaps = box::gaps(); !options.quiet && !gaps.empty()) warn(gaps);
+  if (!options.quiet)
+    for (const std::string& id : plugins_watched_for_memory(experiment))
+      warn(id + ": the kernel does not hold it to memory_mb: its memory in use is looked at ten times a second");
 
   const SummaryLayout layout = read_summary_layout(shared_data_path() / "layouts/summary.json");
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;

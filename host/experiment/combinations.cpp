@@ -31,11 +31,13 @@ std::vector<Combination> combinations(const Experiment& experiment) {
   return out;
 }
 
-bool counts_resident_memory(const Experiment& experiment) {
+std::set<std::string> plugins_watched_for_memory(const Experiment& experiment) {
+  std::set<std::string> ids;
+  if (experiment.limits.memory_mb == 0) return ids;
   for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
-      if (use.info.has_flag(DMRP_FLAG_RESIDENT_MEMORY)) return true;
-  return false;
+      if (use.info.has_flag(DMRP_FLAG_RESIDENT_MEMORY | DMRP_FLAG_PROCESSES)) ids.insert(use.info.id);
+  return ids;
 }
 
 TrialId trial_id(std::uint64_t number, std::size_t combination_count) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,8 +84,9 @@ struct Combination {
 
 std::vector<Combination> combinations(const Experiment& experiment);
 
-// Whether a plugin of it asks that the memory limit counts resident pages (DMRP_FLAG_RESIDENT_MEMORY).
-bool counts_resident_memory(const Experiment& experiment);
+// The ids of its plugins whose memory is watched, as the kernel's limit on the data of a process does not fit them
+// (DMRP_FLAG_RESIDENT_MEMORY) or holds for each process that they start (DMRP_FLAG_PROCESSES).
+std::set<std::string> plugins_watched_for_memory(const Experiment& experiment);
 
 // Trial k is repetition k / C of combination k % C for C combinations. It does not depend on the number of trials.
 struct TrialId {

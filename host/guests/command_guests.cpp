@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/guests/command_guests.hpp"
 
-#include "host/process/memory_group.hpp"
 #include "host/process/orphans.hpp"
 
 namespace dmrp::host {
@@ -11,7 +10,6 @@ namespace {
 GuestLimits limits_of(const RunLimits& limits, std::int32_t log_level) {
   GuestLimits out;
   out.memory_mb = limits.memory_mb;
-  out.data_mb = MemoryGroup::available() ? 0 : limits.memory_mb;
   out.trial_wall_time_s = limits.trial_wall_time_s;
   out.plain_log_level = log_level;
   return out;

@@ -57,7 +57,12 @@ const char* name_of(GuestTask task) {
 
 GuestProcess::GuestProcess(const Nursery& nursery, const LibraryUse& library, const GuestLimits& limits,
                            GuestTask first, int spool, const Started& started, const Looked& looked)
-    : nursery_(nursery), limits_(limits), started_(started), looked_(looked), written_(library.written) {
+    : nursery_(nursery),
+      limits_(limits),
+      counts_resident_(library.has_flag(DMRP_FLAG_RESIDENT_MEMORY | DMRP_FLAG_PROCESSES)),
+      started_(started),
+      looked_(looked),
+      written_(library.written) {
   be_told_of_deaths();
   std::vector<std::unique_ptr<GuestMemory>> taken;  // it keeps its addresses until others are found
   for (int attempt = 0; attempt < address_attempts; ++attempt) {
@@ -77,10 +82,10 @@ void GuestProcess::start(const LibraryUse& library, int spool) {
   turn_ = 0;
   ended_ = false;
   set_memory(memory_->judge_arena(), memory_->output_arena());
-  process_ = nursery_.start(
-      order_of({library.written, library.file, box::has_view() ? view::scratch : limits_.scratch, limits_.data_mb,
-                library.starts_processes(), limits_.plain_log_level, what_shows(library), spool, memory_->place()}),
-      limits_.memory_mb);
+  process_ = nursery_.start(order_of({library.written, library.file, box::has_view() ? view::scratch : limits_.scratch,
+                                      library.has_flag(DMRP_FLAG_RESIDENT_MEMORY) ? 0 : limits_.memory_mb,
+                                      library.has_flag(DMRP_FLAG_PROCESSES), limits_.plain_log_level,
+                                      what_shows(library), spool, memory_->place()}));
   started_(process_->number());
   allow_processor_time();
 }
@@ -171,16 +176,17 @@ void GuestProcess::check_call(const GuestRequest& request) {
        false, false});
 }
 
-// What the kernel's limit on data does not count: shared memory, or all where that limit does not fit the plugins.
+// What the kernel's limit on data does not count: shared memory, or all where it does not fit the plugins or holds for each
+// of several processes.
 void GuestProcess::check_memory(const GuestRequest& request) {
-  if (limits_.memory_mb == 0 || MemoryGroup::available()) return;
+  if (limits_.memory_mb == 0) return;
   const MemoryInUse used = process_->memory_in_use();
   const double host_mb = static_cast<double>(memory_->bytes_in_use()) / (1 << 20);
-  const double counted_mb = (limits_.counts_resident ? used.resident_mb : used.shared_mb) - host_mb;
+  const double counted_mb = (counts_resident_ ? used.resident_mb : used.shared_mb) - host_mb;
   if (counted_mb <= static_cast<double>(limits_.memory_mb)) return;
   end(request, {fault_kind::out_of_memory,
                 fmt::format("{:.0f} MB {}in use, more than memory_mb = {}; when this is noticed depends on timing",
-                            counted_mb, limits_.counts_resident ? "" : "of shared memory ", limits_.memory_mb)});
+                            counted_mb, counts_resident_ ? "" : "of shared memory ", limits_.memory_mb)});
 }
 
 void GuestProcess::fail(const GuestRequest& request) {
@@ -242,10 +248,7 @@ void GuestProcess::has_died(const GuestRequest& request) {
   const NotedCall call = read_call(memory_->note());
   GuestEnd::Ending out = {ending.fault_kind(),        "",   ending.signal,
                           ending.killed_from_outside, true, ending.explain(limits_.memory_mb)};
-  if (ending.exceeded_group)
-    out.detail =
-        fmt::format("more than memory_mb = {} in use; when this is noticed depends on timing", limits_.memory_mb);
-  else if (memory_->guest().wrote_into_input != 0)
+  if (memory_->guest().wrote_into_input != 0)
     out = {fault_kind::abi_breach, "wrote into what it may only read", ending.signal};
   else if (ending.killed_from_outside)
     out.detail = "killed by SIGKILL from outside";

@@ -19,9 +19,7 @@ namespace dmrp::host {
 // What the guests of a judge may use.
 struct GuestLimits {
   std::filesystem::path scratch;  // for temporary files, where guests have no view of their own
-  std::int64_t data_mb = 0;       // by the kernel's limit on data; 0: none
-  std::int64_t memory_mb = 0;     // of memory in use; 0: none
-  bool counts_resident = false;   // memory_mb counts all resident pages, not those alone that no limit on data counts
+  std::int64_t memory_mb = 0;     // 0: no limit
   double trial_wall_time_s = 0.0;
   std::int32_t plain_log_level =
       -1;                // log lines from this level on, after the plugin's id; -1: all, with trial and time
@@ -69,6 +67,7 @@ class GuestProcess : public Guest {
 
   const Nursery& nursery_;
   const GuestLimits& limits_;
+  const bool counts_resident_;  // against memory_mb: all pages in use, not those alone that no limit on data counts
   const Started started_;
   const Looked looked_;
   std::string written_;

@@ -241,7 +241,7 @@ Nursery::~Nursery() {
   waitpid(pid_, nullptr, 0);
 }
 
-std::unique_ptr<ChildProcess> Nursery::start(const GuestOrder& order, std::int64_t group_memory_mb) const {
+std::unique_ptr<ChildProcess> Nursery::start(const GuestOrder& order) const {
   send_order(socket_.number(), order);
   Started started;
   ssize_t count = 0;
@@ -250,7 +250,7 @@ std::unique_ptr<ChildProcess> Nursery::start(const GuestOrder& order, std::int64
   } while (count < 0 && errno == EINTR);  // another guest has ended
   if (count != sizeof(started)) throw MachineError("the nursery of guests", count < 0 ? errno : ECHILD);
   if (started.number < 0) throw MachineError(std::string("a guest cannot be started: ") + started.error.data());
-  return ChildProcess::adopt(started.number, group_memory_mb);
+  return ChildProcess::adopt(started.number);
 }
 
 }  // namespace dmrp::host

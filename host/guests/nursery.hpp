@@ -19,8 +19,8 @@ class Nursery {
   Nursery(const Nursery&) = delete;
   Nursery& operator=(const Nursery&) = delete;
 
-  // Starts a guest, a child of this process, in a memory group with this limit where there can be one. Throws MachineError.
-  std::unique_ptr<ChildProcess> start(const GuestOrder& order, std::int64_t group_memory_mb) const;
+  // Starts a guest, a child of this process. Throws MachineError.
+  std::unique_ptr<ChildProcess> start(const GuestOrder& order) const;
 
   pid_t number() const { return pid_; }
 

@@ -25,9 +25,9 @@ struct LibraryUse {
   std::vector<std::string> objects{};  // shared objects that are loaded with it
   VisiblePaths visible{};              // what its plugins see besides its files (host/process/view.hpp); absolute
 
-  bool starts_processes() const {
-    return std::any_of(plugins.begin(), plugins.end(),
-                       [](const PluginInfo& info) { return info.has_flag(DMRP_FLAG_PROCESSES); });
+  // Whether one of its plugins has it.
+  bool has_flag(std::uint32_t flag) const {
+    return std::any_of(plugins.begin(), plugins.end(), [&](const PluginInfo& info) { return info.has_flag(flag); });
   }
 };
 

@@ -21,6 +21,7 @@
 
 #include "host/errors/machine_error.hpp"
 #include "host/process/box.hpp"
+#include "host/process/orphans.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -73,7 +74,6 @@ constexpr int longest_wait_factor = 20;  // no limit is exceeded more often than
 }  // namespace
 
 const char* ProcessEnding::fault_kind() const {
-  if (exceeded_group) return fault_kind::out_of_memory;
   if (signal == SIGSYS) return fault_kind::abi_breach;
   if (signal == SIGXCPU) return fault_kind::hang;
   if (signal != 0) return fault_kind::crash;
@@ -81,8 +81,7 @@ const char* ProcessEnding::fault_kind() const {
 }
 
 std::string ProcessEnding::explain(std::int64_t memory_mb) const {
-  if (exceeded_group || exit_status == out_of_memory_exit)
-    return fmt::format("needs more than {} MB of memory", memory_mb);
+  if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
   if (signal == SIGSYS) return "made a system call that its process may not make";
   if (signal == SIGXCPU) return fmt::format("took more than {:.3g} s of processor time", cpu_limit_s);
   if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));
@@ -121,19 +120,14 @@ ChildProcess ChildProcess::execute(const Program& program) {
     begin_child(oom_score);
     execute_program(arguments.data(), program);
   }
-  return ChildProcess(child, nullptr);
+  return ChildProcess(child);
 }
 
-ChildProcess::ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group) : group_(std::move(group)), pid_(number) {
-  if (group_) group_->take(number);
-  watch();
+std::unique_ptr<ChildProcess> ChildProcess::adopt(pid_t number) {
+  return std::unique_ptr<ChildProcess>(new ChildProcess(number));
 }
 
-std::unique_ptr<ChildProcess> ChildProcess::adopt(pid_t number, std::int64_t group_memory_mb) {
-  return std::unique_ptr<ChildProcess>(new ChildProcess(number, MemoryGroup::make(group_memory_mb)));
-}
-
-void ChildProcess::watch() {
+ChildProcess::ChildProcess(pid_t number) : pid_(number) {
   ended_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
   if (ended_.is_open()) return;
   const int reason = errno;
@@ -157,15 +151,20 @@ void ChildProcess::kill() {
 MemoryInUse ChildProcess::memory_in_use() const {
   MemoryInUse used;
   if (pid_ < 0) return used;
-  std::ifstream file(fmt::format("/proc/{}/status", pid_));
-  const auto kilobytes = [&file] {
-    double value = 0.0;
-    file >> value;
-    return value;
-  };
-  for (std::string word; file >> word;) {
-    if (word == "VmRSS:") used.resident_mb = kilobytes() / 1024.0;
-    if (word == "RssShmem:") used.shared_mb = kilobytes() / 1024.0;
+  std::vector<pid_t> processes = {pid_};
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    std::ifstream file(fmt::format("/proc/{}/status", processes[i]));
+    const auto kilobytes = [&file] {
+      double value = 0.0;
+      file >> value;
+      return value;
+    };
+    for (std::string word; file >> word;) {
+      if (word == "VmRSS:") used.resident_mb += kilobytes() / 1024.0;
+      if (word == "RssShmem:") used.shared_mb += kilobytes() / 1024.0;
+    }
+    const std::vector<pid_t> children = children_of(processes[i]);
+    processes.insert(processes.end(), children.begin(), children.end());
   }
   return used;
 }
@@ -198,8 +197,7 @@ const ProcessEnding& ChildProcess::wait() {
     ending_.signal = WTERMSIG(status);
   else
     ending_.exit_status = WEXITSTATUS(status);
-  ending_.exceeded_group = ending_.signal == SIGKILL && group_ && group_->has_exceeded_limit();
-  ending_.killed_from_outside = ending_.signal == SIGKILL && !killed_ && !ending_.exceeded_group;
+  ending_.killed_from_outside = ending_.signal == SIGKILL && !killed_;
   ending_.peak_rss_mb = static_cast<double>(used.ru_maxrss) / 1024.0;
   return ending_;
 }

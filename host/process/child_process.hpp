@@ -15,7 +15,6 @@
 
 #include "host/process/descriptor.hpp"
 #include "host/process/fault_kind.hpp"
-#include "host/process/memory_group.hpp"
 
 namespace dmrp::host {
 
@@ -27,7 +26,6 @@ struct ProcessEnding {
   int signal = 0;                    // that killed it; 0: it exited
   int exit_status = 0;               // if it exited
   bool killed_from_outside = false;  // by SIGKILL, and not by kill(): the kernel, when memory is short, or a person
-  bool exceeded_group = false;       // killed by the kernel, for its memory_group.hpp had exceeded its limit
   double peak_rss_mb = 0.0;
   double cpu_limit_s = 0.0;  // the last of allow_cpu(); 0: none
 
@@ -40,11 +38,10 @@ struct ProcessEnding {
   std::string explain(std::int64_t memory_mb) const;
 };
 
-// Of a process, in MB.
+// Of a process and of those that it started, in MB. Pages that two of them share count twice.
 struct MemoryInUse {
   double resident_mb = 0.0;
-  double shared_mb =
-      0.0;  // of that, what no limit on data counts: memory that other processes may share, without files
+  double shared_mb = 0.0;  // of that, what no limit on data counts: what others may share, without files
 };
 
 // Whether something has taken longer than the limit, of which it waited for a processor so long. That does not count, up to
@@ -70,15 +67,14 @@ class ChildProcess {
   // Starts dmrp-host again. Throws MachineError.
   static ChildProcess execute(const Program& program);
 
-  // A child that this process has already, which does nothing before it is told to. Puts it into a memory group, where there
-  // can be one. Throws MachineError.
-  static std::unique_ptr<ChildProcess> adopt(pid_t number, std::int64_t group_memory_mb);
+  // A child that this process has already. Throws MachineError.
+  static std::unique_ptr<ChildProcess> adopt(pid_t number);
 
   ~ChildProcess();  // kills it
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // The memory that it has in use now; nothing once it has been waited for.
+  // The memory that it and its descendants have in use now; nothing once it has been waited for.
   MemoryInUse memory_in_use() const;
 
   std::int64_t waited_for_processor_ns() const { return pid_ < 0 ? 0 : host::waited_for_processor_ns(pid_); }
@@ -103,11 +99,9 @@ class ChildProcess {
   const ProcessEnding& wait();
 
  private:
-  ChildProcess(pid_t number, std::unique_ptr<MemoryGroup> group);
-  void watch();
+  explicit ChildProcess(pid_t number);
 
-  std::unique_ptr<MemoryGroup> group_;  // none: it lives in its parent's
-  pid_t pid_ = -1;                      // -1: it has been waited for
+  pid_t pid_ = -1;  // -1: it has been waited for
   Descriptor ended_;
   bool killed_ = false;
   ProcessEnding ending_;

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace dmrp::host {
@@ -18,15 +20,18 @@ namespace {
 
 constexpr int most_rounds = 50'000;  // an orphan can start others while it is being killed
 
-// Of the thread that calls; the host has no other. Empty where the kernel does not say.
-std::vector<pid_t> children() {
-  std::ifstream file("/proc/self/task/" + std::to_string(gettid()) + "/children");
+}  // namespace
+
+std::vector<pid_t> children_of(pid_t process) {
   std::vector<pid_t> found;
-  for (pid_t child = 0; file >> child;) found.push_back(child);
+  std::error_code gone;  // the process can end at any time
+  std::filesystem::directory_iterator thread("/proc/" + std::to_string(process) + "/task", gone);
+  for (; !gone && thread != std::filesystem::directory_iterator(); thread.increment(gone)) {
+    std::ifstream file(thread->path() / "children");
+    for (pid_t child = 0; file >> child;) found.push_back(child);
+  }
   return found;
 }
-
-}  // namespace
 
 void adopt_orphans() {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -34,7 +39,7 @@ void adopt_orphans() {
 
 void kill_orphans(const std::vector<pid_t>& keep) {
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<pid_t> orphans = children();
+    std::vector<pid_t> orphans = children_of(getpid());
     std::erase_if(orphans, [&](pid_t child) { return std::find(keep.begin(), keep.end(), child) != keep.end(); });
     if (orphans.empty()) return;
     for (const pid_t orphan : orphans) kill(orphan, SIGKILL);

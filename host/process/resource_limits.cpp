@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <thread>
 
-#include "host/process/memory_group.hpp"
 #include "host/process/sanitized.hpp"
 
 namespace dmrp::host {
@@ -20,11 +19,6 @@ void set_resource_limits(std::int64_t memory_mb) {
   memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
   memory.rlim_max = memory.rlim_cur;
   setrlimit(RLIMIT_DATA, &memory);
-}
-
-const char* memory_limit_kind(std::int64_t memory_mb) {
-  if (sanitizer_is_loaded() || memory_mb == 0) return "none";
-  return MemoryGroup::available() ? "memory.max" : "RLIMIT_DATA";
 }
 
 double processor_time_s(double wall_s, unsigned sharers) {

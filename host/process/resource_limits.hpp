@@ -11,9 +11,6 @@ namespace dmrp::host {
 // already set stays.
 void set_resource_limits(std::int64_t memory_mb);
 
-// What limits the memory of a child: "memory.max" of a memory group, "RLIMIT_DATA", or "none".
-const char* memory_limit_kind(std::int64_t memory_mb);
-
 // The processor time of a process that may take `wall_s`, if so many share the processors: each has its share of them, and
 // at least one.
 double processor_time_s(double wall_s, unsigned sharers = 1);

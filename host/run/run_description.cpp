@@ -9,8 +9,7 @@
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
 #include "host/process/box.hpp"
-#include "host/process/memory_group.hpp"
-#include "host/process/resource_limits.hpp"
+#include "host/process/sanitized.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
 
@@ -31,14 +30,16 @@ std::vector<std::string> types_of_robots(const ScenarioVariant& variant) {
 }
 
 PluginLimits limits_of(const Experiment& experiment) {
-  const RunLimits& limits = experiment.limits;
-  const bool watched = limits.memory_mb > 0 && counts_resident_memory(experiment) && !MemoryGroup::available();
+  const bool watched = !plugins_watched_for_memory(experiment).empty();
+  const bool limited = experiment.limits.memory_mb > 0 && !sanitizer_is_loaded();
   std::set<std::string> with_processes;
   for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
       if (use.info.has_flag(DMRP_FLAG_PROCESSES)) with_processes.insert(use.info.id);
   return {box::kind(),
-          watched ? "resident memory, watched" : memory_limit_kind(limits.memory_mb),
+          watched   ? "resident memory, watched"
+          : limited ? "RLIMIT_DATA"
+                    : "none",
           {with_processes.begin(), with_processes.end()}};
 }
 

@@ -77,8 +77,6 @@ GuestLimits guest_limits(const Experiment& experiment, const WorkerTask& task) {
   GuestLimits limits;
   limits.scratch = task.scratch / "plugins";
   limits.memory_mb = experiment.limits.memory_mb;
-  limits.counts_resident = counts_resident_memory(experiment);
-  limits.data_mb = MemoryGroup::available() || limits.counts_resident ? 0 : limits.memory_mb;
   limits.trial_wall_time_s = experiment.limits.trial_wall_time_s;
   limits.sharers = task.jobs;
   return limits;

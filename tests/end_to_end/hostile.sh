@@ -290,6 +290,16 @@ if $limited; then
     "out_of_memory|test.controller.resident|step|50|1|" "more than memory_mb = 150( in use)?; when this is noticed"
   expect_same resident
   note box "fills memory, watched" "fault, \`out_of_memory\`" yes
+  if $has_namespaces; then
+    begin two
+    hostile two "two fill"
+    sed -i 's/test.controller.hostile/test.controller.helped/; s/^memory_mb .*/memory_mb = 150/' "$scratch/two.toml"
+    run_with_faults two 1
+    expect_fault two "local_controller = 'two fill' AND repetition = 0" \
+      "out_of_memory|test.controller.helped|step|50|1|" "MB in use, more than memory_mb = 150; when this is noticed"
+    expect_same two
+    note box "says that it starts processes: fills memory in two" "fault, \`out_of_memory\`" yes
+  fi
 fi
 
 # what a library does while it is loaded

@@ -234,6 +234,15 @@ inline void fill_memory() {
   std::this_thread::sleep_for(std::chrono::seconds(4));
 }
 
+// 80 MB each in this process and in one that it starts.
+inline void fill_memory_of_two() {
+  constexpr std::size_t size = 80u << 20;
+  fork();
+  void* const own = std::malloc(size);
+  if (own) std::memset(own, 1, size);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+}
+
 // What is given out next from the free memory of some sizes is no memory. Nothing happens until somebody asks for it.
 inline void corrupt_heap() {
   for (const std::size_t size : {24, 40, 56, 72, 88, 104, 120}) {
@@ -313,6 +322,7 @@ inline void attack(const std::string& what) {
   if (what == "reserves")
     mmap(nullptr, std::size_t{1} << 36, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (what == "fills") fill_memory();
+  if (what == "two fill") fill_memory_of_two();
   if (what == "umask") umask(0777);
   if (what == "traps numbers") feenableexcept(FE_DIVBYZERO | FE_INVALID);
   if (what == "late thread")

@@ -23,7 +23,7 @@ namespace {
 // A copy of this process, which runs `function`.
 std::unique_ptr<ChildProcess> copy_for(const std::function<void()>& function) {
   const pid_t number = fork();
-  if (number != 0) return ChildProcess::adopt(number, 0);
+  if (number != 0) return ChildProcess::adopt(number);
   be_child();
   try {
     function();
