@@ -64,9 +64,6 @@ Part read_part(const fs::path& path) {
 
 // Results can only be joined if one run would have given the same bits.
 void check_same(const Part& first, const Part& other) {
-  for (const Part* part : {&first, &other})
-    if (part->manifest.identity.empty())
-      throw InputError(fmt::format("{}: was made by an older dmrp-host: it cannot be joined", part->shown));
   if (const auto keys = differences(first.manifest.identity, other.manifest.identity); !keys.empty())
     throw InputError(fmt::format("{}: is a run of another experiment than {}: {} is {}, not {}{}", other.shown,
                                  first.shown, keys[0].key, keys[0].now, keys[0].before, and_others(keys.size())));

@@ -144,7 +144,6 @@ class RunFiles {
 
   // Why the run cannot be continued with the same bits; "" if it can.
   static std::string why_not_same(const Manifest& before, const Manifest& now) {
-    if (before.identity.empty()) return "was made by an older dmrp-host: it cannot be continued";
     if (const auto keys = differences(before.identity, now.identity); !keys.empty())
       return fmt::format("was run with another experiment: {} was {}, is {} now{}", keys[0].key, keys[0].before,
                          keys[0].now, and_others(keys.size()));

@@ -138,9 +138,7 @@ std::vector<std::string> differences_of(const TrialRecord& before, const std::op
 }
 
 // Prints what the experiment means now and did not mean then.
-bool is_same_experiment(const Manifest& before, const Manifest& now, const fs::path& directory) {
-  if (before.identity.empty())
-    throw InputError(fmt::format("{}: was made by an older dmrp-host: it cannot be verified", directory.string()));
+bool is_same_experiment(const Manifest& before, const Manifest& now) {
   const auto keys = differences(before.identity, now.identity);
   for (const KeyDifference& key : keys) fmt::print("{} is {}, was {}\n", key.key, key.now, key.before);
   for (const std::string& change : differences(before, now)) warn("changed since the run: " + change);
@@ -155,7 +153,7 @@ int verify_command(const VerifyOptions& options) {
   const Manifest before = read_manifest(directory / "manifest.json");
   if (!options.trust) check_strangers(directory);
   const Experiment experiment = load_experiment(directory / "effective.toml", 0, &probe_library);
-  if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}), directory)) return exit_status::different;
+  if (!is_same_experiment(before, manifest_of(experiment, {}, 0, {}))) return exit_status::different;
 
   std::vector<TrialRecord> trials = database.trials_with_events_of("");
   const bool whole = has_its_rows(experiment, before.experiment.shard, trials);

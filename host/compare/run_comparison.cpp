@@ -149,7 +149,6 @@ std::vector<ComparedLibrary> libraries_of(const Manifest& before, const Manifest
 std::vector<std::string> changes_between(const Manifest& before, const Manifest& after) {
   constexpr std::size_t most_keys = 12;
   std::vector<std::string> changes = differences(before, after);
-  if (before.identity.empty() || after.identity.empty()) return changes;  // of older versions
   const std::vector<KeyDifference> keys = differences(before.identity, after.identity);
   for (std::size_t i = 0; i < std::min(keys.size(), most_keys); ++i)
     changes.push_back(fmt::format("{}: {}, now {}{}", keys[i].key, keys[i].before, keys[i].now,

@@ -81,51 +81,21 @@ CREATE TABLE fault(
   rerun TEXT NOT NULL
 );
 CREATE INDEX fault_of_trial ON fault(trial_id);
-)sql";
-
-// Added later: results of earlier hosts lack it.
-constexpr const char* swept_schema = R"sql(
-CREATE TABLE IF NOT EXISTS swept(
+CREATE TABLE swept(
   trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
   "table" TEXT NOT NULL,
   "key" TEXT NOT NULL,
   value TEXT NOT NULL
 );
-CREATE INDEX IF NOT EXISTS swept_of_trial ON swept(trial_id);
-)sql";
-
-// Why trials are not repeatable; results of earlier hosts have no such table.
-constexpr const char* timing_table = R"sql(
-CREATE TABLE IF NOT EXISTS timing(
+CREATE INDEX swept_of_trial ON swept(trial_id);
+-- why trials are not repeatable
+CREATE TABLE timing(
   trial_id INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,
   plugin TEXT NOT NULL,
   reason TEXT NOT NULL
 );
-CREATE INDEX IF NOT EXISTS timing_of_trial ON timing(trial_id);
+CREATE INDEX timing_of_trial ON timing(trial_id);
 )sql";
-
-// Version 1 had no people, severity and place of an event.
-constexpr const char* upgrade_from_version_1 = R"sql(
-ALTER TABLE event ADD COLUMN people TEXT NOT NULL DEFAULT '[]';
-ALTER TABLE event ADD COLUMN severity TEXT NOT NULL DEFAULT 'info';
-ALTER TABLE event ADD COLUMN x_m REAL;
-ALTER TABLE event ADD COLUMN y_m REAL;
-)sql";
-// Version 2 had no task of a trial.
-constexpr const char* upgrade_from_version_2 = R"sql(
-ALTER TABLE trial ADD COLUMN task TEXT NOT NULL DEFAULT '';
-)sql";
-// Version 3 had no digests.
-constexpr const char* upgrade_from_version_3 = R"sql(
-ALTER TABLE trial ADD COLUMN plan_sha256 TEXT NOT NULL DEFAULT '';
-ALTER TABLE trial ADD COLUMN trace_sha256 TEXT NOT NULL DEFAULT '';
-ALTER TABLE trial ADD COLUMN row_sha256 TEXT NOT NULL DEFAULT '';
-PRAGMA user_version = 4;
-)sql";
-constexpr const char* event_columns_of_version_1 =
-    "trial_id, metric, from_s, to_s, subjects, text, '[]', 'info', NULL, NULL";
-constexpr const char* event_columns_of_version_2 =
-    "trial_id, metric, from_s, to_s, subjects, text, people, severity, x_m, y_m";
 
 constexpr std::array<const char*, 3> direction_names{"none", "lower", "higher"};    // by DMRP_DIRECTION_*
 constexpr std::array<const char*, 3> severity_names{"info", "warning", "serious"};  // by DMRP_SEVERITY_*
@@ -213,20 +183,12 @@ void write_timing(const SqliteConnection& connection, const TrialRecord& trial) 
     insert.bind(as_signed(trial.id)).bind(reason.plugin).bind(reason.text).run();
 }
 
-std::int64_t version_of(const SqliteConnection& connection) {
-  SqliteStatement pragma(connection, "PRAGMA user_version");
-  return pragma.step() ? pragma.column_integer(0) : 0;
-}
-
-// `sha256s`: of each row as it was written; empty in results of earlier hosts.
+// `sha256s`: of each row as it was written.
 std::vector<TrialRecord> read_trials(const SqliteConnection& connection, std::vector<std::string>& sha256s) {
-  const std::int64_t version = version_of(connection);
-  const std::string later = std::string(version < 3 ? "''" : "task") +
-                            (version < 4 ? ", '', '', ''" : ", plan_sha256, trace_sha256, row_sha256");
   SqliteStatement select(connection,
-                         std::string("SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, "
-                                     "repetition, seed, outcome, repeatable, sim_time_s, wall_time_s, ") +
-                             later + " FROM trial ORDER BY id");
+                         "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, "
+                         "seed, outcome, repeatable, sim_time_s, wall_time_s, task, plan_sha256, trace_sha256, "
+                         "row_sha256 FROM trial ORDER BY id");
   std::vector<TrialRecord> trials;
   while (select.step()) {
     TrialRecord& trial = trials.emplace_back();
@@ -312,21 +274,15 @@ void take_timing(const SqliteStatement& row, TrialRecord& trial) {
   trial.timing.push_back({row.column_text(1), row.column_text(2)});
 }
 
-bool has_table(const SqliteConnection& connection, std::string_view name) {
-  SqliteStatement table(connection, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
-  table.bind(name);
-  return table.step();
-}
-
 SqliteStatement select_events(const SqliteConnection& connection, const std::string& rest) {
-  return SqliteStatement(connection,
-                         std::string("SELECT ") +
-                             (version_of(connection) == 1 ? event_columns_of_version_1 : event_columns_of_version_2) +
-                             " FROM event " + rest);
+  return SqliteStatement(
+      connection,
+      "SELECT trial_id, metric, from_s, to_s, subjects, text, people, severity, x_m, y_m FROM event " + rest);
 }
 
-// Without events. `sha256s`: as of read_trials().
-std::vector<TrialRecord> read_unchecked(const SqliteConnection& connection, std::vector<std::string>& sha256s) {
+// Without events.
+std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
+  std::vector<std::string> sha256s;
   std::vector<TrialRecord> trials = read_trials(connection, sha256s);
   const auto select = [&](const char* sql) { return SqliteStatement(connection, sql); };
   read_rows(
@@ -337,36 +293,16 @@ std::vector<TrialRecord> read_unchecked(const SqliteConnection& connection, std:
             select("SELECT trial_id, kind, plugin, function, step, robot, signal, detail, rerun FROM fault "
                    "ORDER BY trial_id, rowid"),
             trials, take_fault);
-  if (has_table(connection, "swept"))
-    read_rows(connection, select("SELECT trial_id, \"table\", \"key\", value FROM swept ORDER BY trial_id, rowid"),
-              trials, take_swept);
-  if (has_table(connection, "timing"))
-    read_rows(connection, select("SELECT trial_id, plugin, reason FROM timing ORDER BY trial_id, rowid"), trials,
-              take_timing);
-  return trials;
-}
-
-// Without events.
-std::vector<TrialRecord> read_results(const SqliteConnection& connection) {
-  std::vector<std::string> sha256s;
-  std::vector<TrialRecord> trials = read_unchecked(connection, sha256s);
-  const bool has_digests = version_of(connection) >= 4;
+  read_rows(connection, select("SELECT trial_id, \"table\", \"key\", value FROM swept ORDER BY trial_id, rowid"),
+            trials, take_swept);
+  read_rows(connection, select("SELECT trial_id, plugin, reason FROM timing ORDER BY trial_id, rowid"), trials,
+            take_timing);
   for (std::size_t i = 0; i < trials.size(); ++i)
-    if (has_digests && row_sha256(trials[i]) != sha256s[i])
+    if (row_sha256(trials[i]) != sha256s[i])
       throw SqliteError(
           fmt::format("{}: trial {} has other values than the run has written: it was changed after the run",
                       connection.file(), trials[i].id));
   return trials;
-}
-
-// Of rows that have none, as they are.
-void write_digests(const SqliteConnection& connection) {
-  std::vector<std::string> none;
-  for (const TrialRecord& trial : read_unchecked(connection, none))
-    SqliteStatement(connection, "UPDATE trial SET row_sha256 = ? WHERE id = ?")
-        .bind(row_sha256(trial))
-        .bind(as_signed(trial.id))
-        .run();
 }
 
 // What the host reads is plain tables: something else under their names could answer without end, and a trigger could
@@ -387,8 +323,9 @@ void check_file(const SqliteConnection& connection, const std::filesystem::path&
   SqliteStatement check(connection, "PRAGMA quick_check(1)");
   if (!check.step() || check.column_text(0) != "ok")
     throw SqliteError(path.string() + ": is damaged: " + check.column_text(0));
-  const std::int64_t version = version_of(connection);
-  if (version < 1 || version > schema_version)
+  SqliteStatement pragma(connection, "PRAGMA user_version");
+  const std::int64_t version = pragma.step() ? pragma.column_integer(0) : 0;
+  if (version != schema_version)
     throw SqliteError(path.string() + ": results of version " + std::to_string(version) + ", not " +
                       std::to_string(schema_version));
 }
@@ -405,8 +342,6 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
   connection.execute("PRAGMA journal_mode = WAL");
   SqliteTransaction transaction(connection);
   connection.execute(schema);
-  connection.execute(swept_schema);
-  connection.execute(timing_table);
   connection.execute(create_value_views(metrics));
   connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
   SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
@@ -425,16 +360,6 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_write)};
   check_file(database.connection_, path);
   database.connection_.execute("PRAGMA journal_mode = WAL");
-  if (const std::int64_t version = version_of(database.connection_); version < schema_version) {
-    SqliteTransaction transaction(database.connection_);
-    if (version < 2) database.connection_.execute(upgrade_from_version_1);
-    if (version < 3) database.connection_.execute(upgrade_from_version_2);
-    database.connection_.execute(upgrade_from_version_3);
-    write_digests(database.connection_);
-    transaction.commit();
-  }
-  database.connection_.execute(swept_schema);
-  database.connection_.execute(timing_table);
   return database;
 }
 
@@ -496,7 +421,6 @@ std::vector<MetricColumn> ResultsDatabase::metrics() const {
     metric.wall_clock = select.column_integer(3) != 0;
     metric.description = select.column_text(4);
   }
-  if (!has_table(connection_, "added_metric")) return metrics;  // results of earlier hosts
   SqliteStatement added(connection_, "SELECT name FROM added_metric");
   while (added.step())
     for (MetricColumn& metric : metrics)

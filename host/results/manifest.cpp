@@ -69,11 +69,8 @@ ExperimentFacts parse_experiment(const Json& json) {
   json.at("seed").get_to(experiment.seed);
   json.at("repetitions").get_to(experiment.repetitions);
   json.at("trials_planned").get_to(experiment.trials_planned);
-  if (json.contains("grown_from")) json.at("grown_from").get_to(experiment.grown_from);
-  if (json.contains("shard"))
-    experiment.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
-  else
-    experiment.shard.count = 0;
+  json.at("grown_from").get_to(experiment.grown_from);
+  experiment.shard = {json.at("shard").at("index"), json.at("shard").at("count")};
   for (const Json& scenario : json.at("scenarios")) {
     ScenarioFacts& facts = experiment.scenarios.emplace_back();
     scenario.at("name").get_to(facts.name);
@@ -102,13 +99,12 @@ Manifest parse_manifest(const Json& json) {
   json.at("abi").get_to(manifest.abi);
   json.at("command_line").get_to(manifest.command_line);
   json.at("started_at").get_to(manifest.started_at);
-  manifest.commit = json.value("commit", "");
-  manifest.identity = json.value("identity", Identity());
-  manifest.digest = json.value("digest", "");
-  manifest.experiment.shard.count = 0;
-  if (json.contains("experiment")) manifest.experiment = parse_experiment(json.at("experiment"));
-  if (const auto limits = json.find("plugin_limits"); limits != json.end())
-    manifest.plugin_limits = {limits->at("box"), limits->at("memory"), limits->at("plugins_with_processes")};
+  json.at("commit").get_to(manifest.commit);
+  json.at("identity").get_to(manifest.identity);
+  json.at("digest").get_to(manifest.digest);
+  manifest.experiment = parse_experiment(json.at("experiment"));
+  const Json& limits = json.at("plugin_limits");
+  manifest.plugin_limits = {limits.at("box"), limits.at("memory"), limits.at("plugins_with_processes")};
   manifest.left_out = json.value("left_out", manifest.left_out);
   const Json& machine = json.at("machine");
   machine.at("libc").get_to(manifest.machine.libc);

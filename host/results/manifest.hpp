@@ -44,7 +44,7 @@ struct ScenarioFacts {
 // Trials k with k % count == index.
 struct Shard {
   std::uint64_t index = 0;
-  std::uint64_t count = 1;  // 0: unknown, in manifests of older versions
+  std::uint64_t count = 1;
 
   bool operator==(const Shard& other) const { return index == other.index && count == other.count; }
 };
@@ -63,7 +63,7 @@ struct ExperimentFacts {
   std::vector<std::uint32_t> grown_from{};  // earlier numbers of repetitions: it was continued with more
 };
 
-// What an experiment means (host/experiment/identity.hpp); empty in manifests of older versions.
+// What an experiment means (host/experiment/identity.hpp).
 using Identity = std::map<std::string, std::string>;
 
 // What plugins could do on this machine.
@@ -81,14 +81,14 @@ struct UnrepeatableTrials {
 
 struct Manifest {
   std::string dmrp_version;
-  std::string commit;  // that the program was built from; empty in manifests of older versions
+  std::string commit;  // that the program was built from; empty where that is unknown
   std::string abi;     // "1.0", "1.0 draft 3"
   std::vector<std::string> command_line;
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;
   Identity identity;
-  std::string digest;                 // of the identity
-  PluginLimits plugin_limits;         // empty texts in manifests of older versions
+  std::string digest;  // of the identity
+  PluginLimits plugin_limits;
   std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;
   std::vector<HashedFile> files;

@@ -93,11 +93,11 @@ struct TrialRecord {
   std::uint64_t seed = 0;
   std::string outcome;
   bool repeatable = true;
-  std::vector<TimingReason> timing{};  // why it is not repeatable; results of earlier hosts do not say
+  std::vector<TimingReason> timing{};  // why it is not repeatable
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
-  std::string task{};  // a hash of the robots' starts and goals; empty after a fault, and in results of earlier hosts
-  std::string plan_sha256{};   // of the first plan's paths; empty if there is none, and in results of earlier hosts
+  std::string task{};          // a hash of the robots' starts and goals; empty after a fault
+  std::string plan_sha256{};   // of the first plan's paths; empty if there is none
   std::string trace_sha256{};  // of the recorded file; likewise
   std::vector<SweptValue> swept{};
   std::vector<MetricValue> values;

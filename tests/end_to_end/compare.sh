@@ -20,7 +20,7 @@ grep -q "success < -0.02: YES" "$scratch/stdout" || fail "the condition is not n
 expect_status 0 "$host" compare "$after" "$before" --fail-if "success < -0.02"
 # no interval can lie on one side of what it straddles
 forge "$before" "UPDATE value SET value = 0.5 WHERE metric = 'success' AND subject_kind = 'system'"
-query "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE trial.id = trial_id) WHERE
+forge "$after" "UPDATE value SET value = (SELECT repetition % 2 FROM trial WHERE trial.id = trial_id) WHERE
   metric = 'success' AND subject_kind = 'system'"
 expect_status 4 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 
@@ -40,5 +40,5 @@ refused() {
 refused "did you mean 'success'" "$before" "$after" --fail-if "sucess < 0"
 refused "not of the form" "$before" "$after" --fail-if "success = 0"
 refused "is no run directory" "$before" "$scratch"
-query "$after" "UPDATE trial SET seed = seed + 1"
+forge "$after" "UPDATE trial SET seed = seed + 1"
 refused "no trial has scenario, robots, seed and labels" "$before" "$after"

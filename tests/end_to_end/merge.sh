@@ -45,7 +45,7 @@ cp -r "$scratch/a" "$scratch/relabelled"
 forge "$scratch/relabelled" "UPDATE trial SET local_controller = 'better' WHERE id = 0"
 expect_refusal "$scratch/b: trial 4 does not fit trial 0, one of them was changed after its run: its controller is" \
   "$scratch/none" "$scratch/relabelled" "$scratch/b" "$scratch/c"
-query "$scratch/relabelled" "UPDATE trial SET local_controller = (SELECT local_controller FROM trial WHERE id = 6), seed = 1
+forge "$scratch/relabelled" "UPDATE trial SET local_controller = (SELECT local_controller FROM trial WHERE id = 6), seed = 1
   WHERE id = 0"
 expect_refusal "trial [0-9]+ does not fit trial" "$scratch/none" "$scratch/relabelled" "$scratch/b" "$scratch/c"
 expect_refusal "trial 0 is in $scratch/a already" "$scratch/none" "$scratch/a" "$scratch/whole"

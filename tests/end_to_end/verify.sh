@@ -39,11 +39,11 @@ expect_difference "^trial 7: the trace's digest is [0-9a-f]{64}, was [0-9a-f]{64
 cp -r run forged
 forge forged "$change; UPDATE metric SET wall_clock = 1"
 expect_difference '^trial 5: path_length is [0-9.]+, was 123.25$' forged
-query forged "DELETE FROM trial WHERE id = 3; DELETE FROM value WHERE trial_id = 3; DELETE FROM event WHERE trial_id = 3"
+forge forged "DELETE FROM trial WHERE id = 3; DELETE FROM value WHERE trial_id = 3; DELETE FROM event WHERE trial_id = 3"
 expect_difference '^1 of 8 trials are missing$' forged
-query forged "UPDATE trial SET local_controller = 'better' WHERE id = 2"
+forge forged "UPDATE trial SET local_controller = 'better' WHERE id = 2"
 expect_difference "^trial 2: its controller is 'better', in this experiment '" forged
-query forged "UPDATE trial SET seed = 1 WHERE id = 4"
+forge forged "UPDATE trial SET seed = 1 WHERE id = 4"
 expect_difference "^trial 4: its seed is '1', in this experiment '" forged
 query forged "CREATE TRIGGER falsify AFTER INSERT ON value BEGIN UPDATE value SET value = 0 WHERE rowid = NEW.rowid; END"
 expect_status 2 "$host" verify forged
