@@ -238,8 +238,8 @@ inline void fill_memory() {
 inline void fill_memory_of_two() {
   constexpr std::size_t size = 80u << 20;
   fork();
-  void* const own = std::malloc(size);
-  if (own) std::memset(own, 1, size);
+  void* const own = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (own != MAP_FAILED) std::memset(own, 1, size);
   std::this_thread::sleep_for(std::chrono::seconds(4));
 }
 
