@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/scene/robot_task.hpp"
+#include "host/guests/exchange/breach.hpp"
 #include "host/guests/exchange/plan_message.hpp"
 #include "host/guests/inside/annotations.hpp"
 #include "host/trial/observation.hpp"
@@ -19,7 +19,6 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
 constexpr std::size_t most_robots_of_a_request = 64;
 
 bool asks_for(const PluginInfo& info, std::string_view id) {
@@ -313,8 +312,7 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
   };
   if (central_ && status != DMRP_OK)  // the status of a call has been checked
     fail(fault_kind::abi_breach, fmt::format("gave the status {}, which status.h does not allow a command", status));
-  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
-    fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
+  if (const std::string breach = breach_of(command); !breach.empty()) fail(fault_kind::bad_output, breach);
   answers_.push_back({dmrp_twist{command.v_x, command.v_y, command.omega}, status});
 }
 
@@ -341,9 +339,8 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
   call(people_, {GuestTask::move_people, 0, step, step_budget_ns_, input, answer});
   for (std::size_t i = 0; i < people.size(); ++i) {
     const dmrp_vec2 velocity = motions[i].velocity;
-    if (!(std::hypot(velocity.x, velocity.y) <= fastest_person_mps))
-      throw PluginFault(fault_kind::bad_output, people_.instance->site("step", step),
-                        fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocity.x, velocity.y));
+    if (const std::string breach = breach_of(people[i].id, velocity); !breach.empty())
+      throw PluginFault(fault_kind::bad_output, people_.instance->site("step", step), breach);
     velocities_[i] = velocity;
   }
   note_call(DMRP_CALL_PEOPLE, DMRP_ALL_ROBOTS, *answer);
