@@ -228,9 +228,9 @@ void TrialPlugins::sense() {
 
 std::span<const TrialPlugins::Answer> TrialPlugins::control(std::span<const DrivenRobot> robots, std::int64_t step) {
   answers_.clear();
-  if (central_ && !robots.empty()) control_all(robots, step);
-  for (std::size_t first = 0; first < robots.size() && !central_; first += most_robots_of_a_request)
-    control_some(robots.subspan(first, std::min(most_robots_of_a_request, robots.size() - first)), step);
+  const std::size_t most = central_ ? robots.size() : most_robots_of_a_request;
+  for (std::size_t first = 0; first < robots.size(); first += most)
+    control_all(robots.subspan(first, std::min(most, robots.size() - first)), step);
   return answers_;
 }
 
@@ -244,60 +244,33 @@ const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena&
                                      handed.update_flags, 0});
 }
 
-void TrialPlugins::control_some(std::span<const DrivenRobot> robots, std::int64_t step) {
+void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
   const Seat& first = controllers_[robots[0].robot].seat;
   Guest& guest = *first.instance->guest;
   Arena& arena = guest.begin();
   auto* const items = arena.make<ControlItem>(robots.size());
+  auto* const observations = arena.make<dmrp_observation>(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const DrivenRobot& robot = robots[i];
     const Controller& controller = controllers_[robot.robot];
     const dmrp_observation seen = observation_of(robot.robot, robot.guidance, variant_, world_, *controller.sensors);
-    items[i] = {controller.seat.instance->number, update_of(robot, arena),
-                arena.copy(controller.seat.world->copy(arena, seen)), readings_of(controller, arena)};
+    observations[i] = controller.seat.world->copy(arena, seen);
+    items[i] = {controller.seat.instance->number, update_of(robot, arena), readings_of(controller, arena)};
   }
-  const ControlInput* const input = arena.copy(ControlInput{static_cast<std::uint32_t>(robots.size()), items});
   auto* const answers = guest.output().make<ControlAnswer>(robots.size());
-  call(first, {GuestTask::control, 0, step, step_budget_ns_, input, answers});
+  auto* const of_all = guest.output().make<CallAnswer>();
+  const ControlInput* const input =
+      arena.copy(ControlInput{static_cast<std::uint32_t>(robots.size()), items, observations, answers});
+  call(first, {GuestTask::control_all, 0, step, step_budget_ns_, input, of_all});
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const ControlAnswer answer = answers[i];
-    take_command(robots[i], answer, "step", step);
-    note_call(DMRP_CALL_CONTROL, robots[i].robot, answer.call);
+    take_command(robots[i], answer, step);
+    if (!central_) note_call(DMRP_CALL_CONTROL, robots[i].robot, answer.call);
   }
+  if (central_) note_call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, *of_all);
 }
 
-void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
-  const Seat& seat = controllers_[0].seat;
-  Guest& guest = *seat.instance->guest;
-  Arena& arena = guest.begin();
-  const auto count = static_cast<std::uint32_t>(robots.size());
-  auto* const observations = arena.make<dmrp_observation>(count);
-  auto* const readings = arena.make<SentReadings>(count);
-  std::vector<dmrp_path_update> updates;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const DrivenRobot& robot = robots[i];
-    if (const dmrp_path_update* const update = update_of(robot, arena)) updates.push_back(*update);
-    observations[i] = seat.world->copy(
-        arena, observation_of(robot.robot, robot.guidance, variant_, world_, *controllers_[robot.robot].sensors));
-    readings[i] = readings_of(controllers_[robot.robot], arena);
-  }
-  auto* const answers = guest.output().make<ControlAnswer>(count);
-  auto* const answer = guest.output().make<CallAnswer>();
-  const auto update_count = static_cast<std::uint32_t>(updates.size());
-  const CentralInput* const input = arena.copy(
-      CentralInput{update_count, arena.copy(updates.data(), updates.size()), count, observations, readings, answers});
-  call(seat, {GuestTask::control_all, 0, step, step_budget_ns_, input, answer});
-  const CallAnswer result = *answer;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    ControlAnswer one = answers[i];
-    one.call = {one.command.status, result.duration_ns};
-    take_command(robots[i], one, "step_all", step);
-  }
-  note_call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, result);
-}
-
-void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function,
-                                std::int64_t step) {
+void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, std::int64_t step) {
   const dmrp_command& command = answer.command;
   controllers_[robot.robot].read = answer.read;
   const std::int32_t status = answer.call.status;
@@ -306,7 +279,7 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     return;
   }
   const auto fail = [&](const char* kind, const std::string& text) {
-    CallSite site = controllers_[robot.robot].seat.instance->site(function, step);
+    CallSite site = controllers_[robot.robot].seat.instance->site(central_ ? "step_all" : "step", step);
     site.robot = static_cast<std::int32_t>(robot.robot);
     throw PluginFault(kind, site, text);
   };
