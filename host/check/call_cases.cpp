@@ -14,7 +14,6 @@
 #include "host/check/check_case.hpp"
 #include "host/check/examination.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
-#include "host/check/same_outputs.hpp"
 #include "host/process/sanitized.hpp"
 
 namespace dmrp::host {

@@ -4,24 +4,28 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 
-#include "host/check/memory_file.hpp"
 #include "host/check/rehearsal/fence.hpp"
 #include "host/errors/escaped_text.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/guests/nursery.hpp"
 #include "host/plugins/calls/own_process.hpp"
 #include "host/process/box.hpp"
 #include "host/process/call_note.hpp"
 #include "host/process/child_process.hpp"
+#include "host/process/descriptor.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/resource_limits.hpp"
 #include "host/process/sanitized.hpp"
@@ -40,6 +44,42 @@ std::int64_t case_limit_s() {
 
 bool is_late(const ChildProcess& child, std::int64_t elapsed_ns) {
   return child.is_late(elapsed_ns, 0, case_limit_s() * 1'000'000'000);
+}
+
+// A file in memory, by which a child returns an answer of any length.
+class MemoryFile {
+ public:
+  MemoryFile();                                                     // throws MachineError
+  explicit MemoryFile(Descriptor file) : file_(std::move(file)) {}  // another process has made it
+
+  void append(std::string_view bytes) const;  // throws MachineError
+  std::string read() const;
+  int descriptor() const { return file_.number(); }
+
+ private:
+  Descriptor file_;
+};
+
+MemoryFile::MemoryFile() : file_(memfd_create("dmrp-answer", MFD_CLOEXEC)) {
+  if (!file_.is_open()) throw MachineError("memfd_create", errno);
+}
+
+void MemoryFile::append(std::string_view bytes) const {
+  if (!file_.write(bytes)) throw MachineError("an answer cannot be written", errno);
+}
+
+std::string MemoryFile::read() const {
+  const off_t size = lseek(file_.number(), 0, SEEK_END);
+  std::string text(static_cast<std::size_t>(std::max<off_t>(size, 0)), '\0');
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = pread(file_.number(), text.data() + done, text.size() - done, static_cast<off_t>(done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  text.resize(done);
+  return text;
 }
 
 // A line of the answer. Texts of plugins need not be UTF-8: invalid bytes are replaced.

@@ -94,6 +94,17 @@ class Check {
 
 }  // namespace
 
+std::span<const CheckCase> check_cases() {
+  static const std::vector<CheckCase> cases = [] {
+    std::vector<CheckCase> all;
+    for (const auto group : {load_check_cases(), descriptor_check_cases(), parameter_check_cases(), trial_check_cases(),
+                             step_check_cases(), call_check_cases(), other_check_cases()})
+      all.insert(all.end(), group.begin(), group.end());
+    return all;
+  }();
+  return cases;
+}
+
 const char* result_name(CheckResult result) {
   static constexpr const char* names[] = {"pass", "skip", "warn", "fail", "crash"};
   return names[static_cast<std::size_t>(result)];

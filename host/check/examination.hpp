@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host/check/rehearsal/rehearsal.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/plugins/library.hpp"
 #include "host/process/call_note.hpp"
@@ -84,5 +85,11 @@ class Examination {
   mutable std::mutex log_mutex_;
   std::vector<std::string> complaints_;
 };
+
+// Fails at the first number that differs, to the bit.
+void expect_same(Examination& it, const Outputs& outputs, const Outputs& expected);
+
+// What a new instance gives in a rehearsal.
+Outputs alone(Examination& it, std::uint64_t seed);
 
 }  // namespace dmrp::host

@@ -13,8 +13,6 @@
 #include "host/check/examination.hpp"
 #include "host/check/process_state.hpp"
 #include "host/check/rehearsal/rehearsal.hpp"
-#include "host/check/same_outputs.hpp"
-#include "host/check/static_variables.hpp"
 #include "host/check/symbol_hooks.hpp"
 
 namespace dmrp::host {

@@ -48,8 +48,8 @@ std::int64_t step_of(const GuestRequest& request, std::int64_t said) {
 }
 
 const char* name_of(GuestTask task) {
-  static constexpr const char* names[] = {"init", "init", "",          "create",  "start", "step",    "step_all",
-                                          "step", "plan", "trial_end", "observe", "",      "destroy", "deinit"};
+  static constexpr const char* names[] = {"init", "init",      "",        "create", "start",   "step",  "step",
+                                          "plan", "trial_end", "observe", "",       "destroy", "deinit"};
   return names[static_cast<std::size_t>(task)];
 }
 

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 
 #include "host/experiment/experiment.hpp"
 #include "host/guests/guests.hpp"
@@ -26,7 +24,7 @@ struct FinishedTrial {
 MetricResult ask_metric(Guests& guests, const PluginUse& metric, std::uint32_t index, const FinishedTrial& trial,
                         std::int64_t call_budget_ns);
 
-// Why a metric's guest cannot have got this result from the metric, in one line; nothing if it can.
-std::optional<std::string> breach_of(const MetricResult& result, const PluginInfo& metric, std::uint32_t robots);
+// What a metric's guest gave as the result, once all in it can be from the metric. Throws UnbelievableMessage.
+MetricResult believed(MetricResult given, const PluginInfo& metric, std::uint32_t robots, std::uint32_t index);
 
 }  // namespace dmrp::host

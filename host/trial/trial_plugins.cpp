@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <dmrp/toolkit/random.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/scene/robot_task.hpp"
+#include "host/guests/exchange/breach.hpp"
 #include "host/guests/exchange/plan_message.hpp"
 #include "host/guests/inside/annotations.hpp"
 #include "host/trial/observation.hpp"
@@ -19,7 +19,6 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr double fastest_person_mps = 5.0;  // faster people are an error of the model
 constexpr std::size_t most_robots_of_a_request = 64;
 
 bool asks_for(const PluginInfo& info, std::string_view id) {
@@ -229,9 +228,9 @@ void TrialPlugins::sense() {
 
 std::span<const TrialPlugins::Answer> TrialPlugins::control(std::span<const DrivenRobot> robots, std::int64_t step) {
   answers_.clear();
-  if (central_ && !robots.empty()) control_all(robots, step);
-  for (std::size_t first = 0; first < robots.size() && !central_; first += most_robots_of_a_request)
-    control_some(robots.subspan(first, std::min(most_robots_of_a_request, robots.size() - first)), step);
+  const std::size_t most = central_ ? robots.size() : most_robots_of_a_request;
+  for (std::size_t first = 0; first < robots.size(); first += most)
+    control_all(robots.subspan(first, std::min(most, robots.size() - first)), step);
   return answers_;
 }
 
@@ -245,60 +244,33 @@ const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena&
                                      handed.update_flags, 0});
 }
 
-void TrialPlugins::control_some(std::span<const DrivenRobot> robots, std::int64_t step) {
+void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
   const Seat& first = controllers_[robots[0].robot].seat;
   Guest& guest = *first.instance->guest;
   Arena& arena = guest.begin();
   auto* const items = arena.make<ControlItem>(robots.size());
+  auto* const observations = arena.make<dmrp_observation>(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const DrivenRobot& robot = robots[i];
     const Controller& controller = controllers_[robot.robot];
     const dmrp_observation seen = observation_of(robot.robot, robot.guidance, variant_, world_, *controller.sensors);
-    items[i] = {controller.seat.instance->number, update_of(robot, arena),
-                arena.copy(controller.seat.world->copy(arena, seen)), readings_of(controller, arena)};
+    observations[i] = controller.seat.world->copy(arena, seen);
+    items[i] = {controller.seat.instance->number, update_of(robot, arena), readings_of(controller, arena)};
   }
-  const ControlInput* const input = arena.copy(ControlInput{static_cast<std::uint32_t>(robots.size()), items});
   auto* const answers = guest.output().make<ControlAnswer>(robots.size());
-  call(first, {GuestTask::control, 0, step, step_budget_ns_, input, answers});
+  auto* const of_all = guest.output().make<CallAnswer>();
+  const ControlInput* const input =
+      arena.copy(ControlInput{static_cast<std::uint32_t>(robots.size()), items, observations, answers});
+  call(first, {GuestTask::control_all, 0, step, step_budget_ns_, input, of_all});
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const ControlAnswer answer = answers[i];
-    take_command(robots[i], answer, "step", step);
-    note_call(DMRP_CALL_CONTROL, robots[i].robot, answer.call);
+    take_command(robots[i], answer, step);
+    if (!central_) note_call(DMRP_CALL_CONTROL, robots[i].robot, answer.call);
   }
+  if (central_) note_call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, *of_all);
 }
 
-void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
-  const Seat& seat = controllers_[0].seat;
-  Guest& guest = *seat.instance->guest;
-  Arena& arena = guest.begin();
-  const auto count = static_cast<std::uint32_t>(robots.size());
-  auto* const observations = arena.make<dmrp_observation>(count);
-  auto* const readings = arena.make<SentReadings>(count);
-  std::vector<dmrp_path_update> updates;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const DrivenRobot& robot = robots[i];
-    if (const dmrp_path_update* const update = update_of(robot, arena)) updates.push_back(*update);
-    observations[i] = seat.world->copy(
-        arena, observation_of(robot.robot, robot.guidance, variant_, world_, *controllers_[robot.robot].sensors));
-    readings[i] = readings_of(controllers_[robot.robot], arena);
-  }
-  auto* const answers = guest.output().make<ControlAnswer>(count);
-  auto* const answer = guest.output().make<CallAnswer>();
-  const auto update_count = static_cast<std::uint32_t>(updates.size());
-  const CentralInput* const input = arena.copy(
-      CentralInput{update_count, arena.copy(updates.data(), updates.size()), count, observations, readings, answers});
-  call(seat, {GuestTask::control_all, 0, step, step_budget_ns_, input, answer});
-  const CallAnswer result = *answer;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    ControlAnswer one = answers[i];
-    one.call = {one.command.status, result.duration_ns};
-    take_command(robots[i], one, "step_all", step);
-  }
-  note_call(DMRP_CALL_CONTROL, DMRP_ALL_ROBOTS, result);
-}
-
-void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function,
-                                std::int64_t step) {
+void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& answer, std::int64_t step) {
   const dmrp_command& command = answer.command;
   controllers_[robot.robot].read = answer.read;
   const std::int32_t status = answer.call.status;
@@ -307,14 +279,13 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     return;
   }
   const auto fail = [&](const char* kind, const std::string& text) {
-    CallSite site = controllers_[robot.robot].seat.instance->site(function, step);
+    CallSite site = controllers_[robot.robot].seat.instance->site(central_ ? "step_all" : "step", step);
     site.robot = static_cast<std::int32_t>(robot.robot);
     throw PluginFault(kind, site, text);
   };
   if (central_ && status != DMRP_OK)  // the status of a call has been checked
     fail(fault_kind::abi_breach, fmt::format("gave the status {}, which status.h does not allow a command", status));
-  if (!std::isfinite(command.v_x) || !std::isfinite(command.v_y) || !std::isfinite(command.omega))
-    fail(fault_kind::bad_output, fmt::format("gave the command ({}, {}, {})", command.v_x, command.v_y, command.omega));
+  if (const std::string breach = breach_of(command); !breach.empty()) fail(fault_kind::bad_output, breach);
   answers_.push_back({dmrp_twist{command.v_x, command.v_y, command.omega}, status});
 }
 
@@ -341,9 +312,8 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
   call(people_, {GuestTask::move_people, 0, step, step_budget_ns_, input, answer});
   for (std::size_t i = 0; i < people.size(); ++i) {
     const dmrp_vec2 velocity = motions[i].velocity;
-    if (!(std::hypot(velocity.x, velocity.y) <= fastest_person_mps))
-      throw PluginFault(fault_kind::bad_output, people_.instance->site("step", step),
-                        fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocity.x, velocity.y));
+    if (const std::string breach = breach_of(people[i].id, velocity); !breach.empty())
+      throw PluginFault(fault_kind::bad_output, people_.instance->site("step", step), breach);
     velocities_[i] = velocity;
   }
   note_call(DMRP_CALL_PEOPLE, DMRP_ALL_ROBOTS, *answer);

@@ -116,10 +116,9 @@ class TrialPlugins {
   static SentReadings readings_of(const Controller& controller, Arena& arena);
 
   PlannerAnswer ask_planner(const Seat& planner, const dmrp_planning_problem& problem, std::int64_t step);
-  void control_some(std::span<const DrivenRobot> robots, std::int64_t step);
   void control_all(std::span<const DrivenRobot> robots, std::int64_t step);
   const dmrp_path_update* update_of(const DrivenRobot& robot, Arena& arena);
-  void take_command(const DrivenRobot& robot, const ControlAnswer& answer, const char* function, std::int64_t step);
+  void take_command(const DrivenRobot& robot, const ControlAnswer& answer, std::int64_t step);
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallAnswer& answer);
 
   core::Lidar& lidar_of(std::uint32_t robot);

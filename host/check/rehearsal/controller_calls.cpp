@@ -2,11 +2,11 @@
 // A controller drives a robot along a straight plan among people, or all robots if it is central.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/rehearsal/stage_extensions.hpp"
+#include "host/guests/exchange/breach.hpp"
 #include "host/plugins/calls/output.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/observation.hpp"
@@ -130,9 +130,8 @@ class ControllerCalls {
     dmrp_twist twist{};
     if (status != DMRP_NO_SOLUTION) {
       twist = {command.v_x, command.v_y, command.omega};
-      if (!std::isfinite(twist.v_x) || !std::isfinite(twist.v_y) || !std::isfinite(twist.omega))
-        throw PluginFault(fault_kind::bad_output, instance_.site(function, tick_),
-                          fmt::format("gave the command ({}, {}, {})", twist.v_x, twist.v_y, twist.omega));
+      if (const std::string breach = breach_of(command); !breach.empty())
+        throw PluginFault(fault_kind::bad_output, instance_.site(function, tick_), breach);
       outputs.insert(outputs.end(), {twist.v_x, twist.v_y, twist.omega});
     }
     stage_.world.set_command(robot, twist);

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A pedestrian model moves the people of the stage, among robots that drive to their goals.
-#include <fmt/format.h>
-
-#include <cmath>
 #include <memory>
 
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/rehearsal/stage_extensions.hpp"
+#include "host/guests/exchange/breach.hpp"
 
 namespace dmrp::host {
 
 namespace {
-
-constexpr double fastest_person_mps = 5.0;  // pedestrian_model.h
 
 class PedestrianCalls {
  public:
@@ -51,9 +47,8 @@ class PedestrianCalls {
     std::vector<dmrp_vec2> velocities;
     for (std::size_t i = 0; i < people.size(); ++i) {
       const dmrp_vec2 velocity = motions_memory.at(motions.motions, i).velocity;
-      if (!(std::hypot(velocity.x, velocity.y) <= fastest_person_mps))
-        throw PluginFault(fault_kind::bad_output, instance_.site("step", step_),
-                          fmt::format("gave person {} the velocity ({}, {})", people[i].id, velocity.x, velocity.y));
+      if (const std::string breach = breach_of(people[i].id, velocity); !breach.empty())
+        throw PluginFault(fault_kind::bad_output, instance_.site("step", step_), breach);
       velocities.push_back(velocity);
       outputs.insert(outputs.end(), {velocity.x, velocity.y});
     }

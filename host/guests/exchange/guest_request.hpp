@@ -24,8 +24,7 @@ enum class GuestTask : std::uint32_t {
   begin_trial,  // BeginInput; of no instance
   create,       // text: JSON {"plugin", "parameters", "robot"}
   start,        // StartInput
-  control,      // ControlInput -> ControlAnswer, one each
-  control_all,  // CentralInput -> CallAnswer, and ControlAnswer, one each
+  control_all,  // ControlInput -> ControlAnswer, one each; CallAnswer if one instance drives all
   move_people,  // PeopleInput -> CallAnswer, and dmrp_motion, one each
   plan,         // PlanInput -> text: JSON, and the waypoints
   end_trial,    // dmrp_trial_end
@@ -72,18 +71,6 @@ struct SentReadings {
   const void* of[kinds];  // by GuestQuestion::Kind; nullptr: ask for it
 };
 
-// One robot's controller at a control tick.
-struct ControlItem {
-  std::uint32_t instance;
-  const dmrp_path_update* update;  // nullptr: it keeps its path
-  const dmrp_observation* observation;
-  SentReadings readings;
-};
-struct ControlInput {
-  std::uint32_t count;
-  const ControlItem* items;
-};
-
 struct CallAnswer {
   std::int32_t status;
   std::int64_t duration_ns;
@@ -94,13 +81,17 @@ struct ControlAnswer {
   std::uint32_t read;  // bits 1u << GuestQuestion::Kind
 };
 
-struct CentralInput {
-  std::uint32_t update_count;
-  const dmrp_path_update* updates;
+// One robot at a control tick.
+struct ControlItem {
+  std::uint32_t instance;          // that drives it
+  const dmrp_path_update* update;  // nullptr: it keeps its path
+  SentReadings readings;
+};
+struct ControlInput {
   std::uint32_t count;
-  const dmrp_observation* observations;
-  const SentReadings* readings;
-  ControlAnswer* answers;  // output; without `call`
+  const ControlItem* items;
+  const dmrp_observation* observations;  // parallel to items
+  ControlAnswer* answers;                // output, parallel to items
 };
 
 struct PeopleInput {

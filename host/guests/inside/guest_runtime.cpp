@@ -51,9 +51,6 @@ std::string GuestRuntime::answer(const GuestRequest& request, const std::string&
     case GuestTask::start:
       start(request);
       return "";
-    case GuestTask::control:
-      control(request);
-      return "";
     case GuestTask::control_all:
       control_all(request);
       return "";
@@ -183,38 +180,43 @@ const void* GuestRuntime::reading(std::uint32_t instance, GuestQuestion::Kind ki
   return known;
 }
 
-void GuestRuntime::set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update& update) {
+void GuestRuntime::set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update* update) {
+  if (!update) return;
   const auto table = seat.instance->table<dmrp_local_controller>();
   seat.instance->call("set_path", request.step, request.budget_ns, Answers::no_other,
-                      [&] { return table.set_path(seat.instance->self(), &update); });
-}
-
-void GuestRuntime::control(const GuestRequest& request) {
-  const auto& input = *static_cast<const ControlInput*>(request.input);
-  auto* const answers = static_cast<ControlAnswer*>(request.output);
-  for (std::uint32_t i = 0; i < input.count; ++i) answers[i] = control_one(request, input.items[i]);
-}
-
-ControlAnswer GuestRuntime::control_one(const GuestRequest& request, const ControlItem& item) {
-  Seat& seat = this->seat(item.instance);
-  shown_.clear();
-  shown(item.observation->robot).readings = item.readings;
-  if (item.update) set_path(seat, request, *item.update);
-  const auto table = seat.instance->table<dmrp_local_controller>();
-  command_.clear();
-  const auto result = seat.instance->call("step", request.step, request.budget_ns, Answers::no_solution, [&] {
-    return table.step(seat.instance->self(), item.observation, &command_.value);
-  });
-  command_.check(seat.instance->site("step", request.step), "dmrp_command");
-  return {{result.status, result.duration_ns}, command_.value, shown(item.observation->robot).read};
+                      [&] { return table.set_path(seat.instance->self(), update); });
 }
 
 void GuestRuntime::control_all(const GuestRequest& request) {
-  const auto& input = *static_cast<const CentralInput*>(request.input);
+  const auto& input = *static_cast<const ControlInput*>(request.input);
+  if (seat(request.instance).info->has_flag(DMRP_FLAG_CENTRAL))
+    control_fleet(request, input);
+  else
+    control_each(request, input);
+}
+
+void GuestRuntime::control_each(const GuestRequest& request, const ControlInput& input) {
+  for (std::uint32_t i = 0; i < input.count; ++i) {
+    const dmrp_observation& observation = input.observations[i];
+    Seat& seat = this->seat(input.items[i].instance);
+    shown_.clear();
+    shown(observation.robot).readings = input.items[i].readings;
+    set_path(seat, request, input.items[i].update);
+    const auto table = seat.instance->table<dmrp_local_controller>();
+    command_.clear();
+    const auto result = seat.instance->call("step", request.step, request.budget_ns, Answers::no_solution, [&] {
+      return table.step(seat.instance->self(), &observation, &command_.value);
+    });
+    command_.check(seat.instance->site("step", request.step), "dmrp_command");
+    input.answers[i] = {{result.status, result.duration_ns}, command_.value, shown(observation.robot).read};
+  }
+}
+
+void GuestRuntime::control_fleet(const GuestRequest& request, const ControlInput& input) {
   Seat& seat = this->seat(request.instance);
   shown_.clear();
-  for (std::uint32_t i = 0; i < input.count; ++i) shown(input.observations[i].robot).readings = input.readings[i];
-  for (std::uint32_t i = 0; i < input.update_count; ++i) set_path(seat, request, input.updates[i]);
+  for (std::uint32_t i = 0; i < input.count; ++i) shown(input.observations[i].robot).readings = input.items[i].readings;
+  for (std::uint32_t i = 0; i < input.count; ++i) set_path(seat, request, input.items[i].update);
   commands_.resize(input.count);
   for (std::uint32_t i = 0; i < input.count; ++i) commands_[i].struct_size = sizeof(dmrp_command);
   const dmrp_fleet fleet = {sizeof(fleet),        input.count,     input.observations, sizeof(dmrp_observation),
@@ -224,7 +226,8 @@ void GuestRuntime::control_all(const GuestRequest& request) {
                                           [&] { return table.step_all(seat.instance->self(), &fleet); });
   commands_.check(seat.instance->site("step_all", request.step), "the commands");
   for (std::uint32_t i = 0; i < input.count; ++i)
-    input.answers[i] = {{}, commands_[i], shown(input.observations[i].robot).read};
+    input.answers[i] = {
+        {commands_[i].status, result.duration_ns}, commands_[i], shown(input.observations[i].robot).read};
   *static_cast<CallAnswer*>(request.output) = {result.status, result.duration_ns};
 }
 

@@ -67,10 +67,10 @@ class GuestRuntime {
   void unload();
   void create(std::uint32_t number, const std::string& text);
   void start(const GuestRequest& request);
-  void control(const GuestRequest& request);
-  ControlAnswer control_one(const GuestRequest& request, const ControlItem& item);
-  void set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update& update);
   void control_all(const GuestRequest& request);
+  void control_each(const GuestRequest& request, const ControlInput& input);
+  void control_fleet(const GuestRequest& request, const ControlInput& input);
+  void set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update* update);
   void move_people(const GuestRequest& request);
   Shown& shown(std::uint32_t robot);
   const void* reading(std::uint32_t instance, GuestQuestion::Kind kind, std::uint32_t robot);

@@ -6,30 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
-#include <set>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <tuple>
+#include <utility>
 
 #include "host/errors/escaped_text.hpp"
+#include "host/guests/exchange/breach.hpp"
 #include "host/plugins/calls/host_callback.hpp"
 #include "host/plugins/v1_sizes.hpp"
-#include "host/results/result_bytes.hpp"
 
 namespace dmrp::host {
 
 namespace {
 
-// The key of a value: the declared name, the subject, the coordinate.
-using Key = std::tuple<std::size_t, std::uint32_t, std::optional<std::uint64_t>, std::optional<double>>;
-
 struct CollectedValues {
-  const PluginInfo& info;
-  std::uint32_t robot_count;
-  MetricResult result;
-  std::set<Key> given;
+  MetricAnswer answer;
   std::string refused{};  // why the last value or event was
-  std::size_t bytes = 0;  // of the result
 };
 
 std::int32_t refuse(CollectedValues& collected, const char* what, const char* name, const std::string& why) {
@@ -37,13 +31,11 @@ std::int32_t refuse(CollectedValues& collected, const char* what, const char* na
   return DMRP_ERROR;
 }
 
-// Whether the result has room for it.
 template <class Given>
-bool has_room(CollectedValues& collected, const Given& given) {
-  collected.bytes += bytes_of(given);
-  return collected.bytes <= most_result_bytes;
+std::int32_t take(CollectedValues& collected, const char* what, const char* name, Given&& given) {
+  const std::string breach = collected.answer.add(std::forward<Given>(given));
+  return breach.empty() ? DMRP_OK : refuse(collected, what, name, breach);
 }
-constexpr const char* no_room = "the values and events of a metric in one trial take more than 32 MB";
 
 std::optional<double> or_none(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
@@ -53,34 +45,13 @@ CollectedValues& collected_by(dmrp_metric_sink* sink) {
   return *static_cast<CollectedValues*>(sink->context);
 }
 
-// Why a value cannot be taken; "" if it can.
-std::string mistake_in(const dmrp_metric_result& c, const MetricValueSpec& spec, std::uint32_t robot_count) {
-  if (c.subject_kind > DMRP_SUBJECT_PEDESTRIAN || !(spec.subjects & (1u << c.subject_kind)))
-    return fmt::format("its descriptor declares no subject {}", c.subject_kind);
-  if (c.subject_kind == DMRP_SUBJECT_ROBOT && c.subject >= robot_count)
-    return fmt::format("robot {}, but there are {}", c.subject, robot_count);
-  if (std::isinf(c.value) || std::isinf(c.coordinate)) return "it is infinite (NaN is undefined)";
-  if (!spec.curve && !std::isnan(c.coordinate)) return "it has a coordinate, but is no curve";
-  return "";
-}
-
 std::int32_t collect_value(CollectedValues& collected, const dmrp_metric_result& theirs) {
   if (!has_v1_0<dmrp_metric_result>(theirs.struct_size))
     return refuse(collected, "value", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_metric_result c = copy_struct(theirs);
-  const auto& specs = collected.info.values;
-  const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return c.name && s.name == c.name; });
-  if (spec == specs.end()) return refuse(collected, "value", c.name, "its descriptor does not declare it");
-  if (const std::string mistake = mistake_in(c, *spec, collected.robot_count); !mistake.empty())
-    return refuse(collected, "value", c.name, mistake);
   const auto subject = c.subject_kind == DMRP_SUBJECT_SYSTEM ? std::nullopt : std::optional(c.subject);
-  const auto index = static_cast<std::size_t>(spec - specs.begin());
-  if (!collected.given.emplace(index, c.subject_kind, subject, or_none(c.coordinate)).second)
-    return refuse(collected, "value", c.name, "it was given before");
-  MetricValue value = {spec->name, c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)};
-  if (!has_room(collected, value)) return refuse(collected, "value", c.name, no_room);
-  collected.result.values.push_back(std::move(value));
-  return DMRP_OK;
+  MetricValue value = {c.name ? c.name : "", c.subject_kind, subject, or_none(c.coordinate), or_none(c.value)};
+  return take(collected, "value", c.name, std::move(value));
 }
 
 std::int32_t collect_event(CollectedValues& collected, const dmrp_event& theirs) {
@@ -88,7 +59,6 @@ std::int32_t collect_event(CollectedValues& collected, const dmrp_event& theirs)
     return refuse(collected, "event", "", fmt::format("its struct_size is {}", theirs.struct_size));
   const dmrp_event c = copy_struct(theirs);
   if (!c.name) return refuse(collected, "event", "", "it has no name");
-  if (c.to_ns < c.from_ns) return refuse(collected, "event", c.name, "it ends before it begins");
   if (c.subject_count > 0 && (!c.subjects || !has_stride_v1_0<dmrp_subject>(c.subject_stride)))
     return refuse(collected, "event", c.name, "its subjects cannot be read");
   MetricEvent event = {escaped(c.name), c.from_ns, c.to_ns, {}, {}, escaped(c.text), c.severity, std::nullopt};
@@ -97,18 +67,14 @@ std::int32_t collect_event(CollectedValues& collected, const dmrp_event& theirs)
     if (subject.reserved != 0)
       return refuse(collected, "event", c.name,
                     fmt::format("a reserved field of its subjects is {}, not 0", subject.reserved));
-    if (subject.kind == DMRP_SUBJECT_ROBOT && subject.id >= collected.robot_count)
-      return refuse(collected, "event", c.name,
-                    fmt::format("robot {}, but there are {}", subject.id, collected.robot_count));
-    if (subject.kind == DMRP_SUBJECT_ROBOT) event.robots.push_back(static_cast<std::uint32_t>(subject.id));
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (subject.kind == DMRP_SUBJECT_ROBOT)
+      event.robots.push_back(static_cast<std::uint32_t>(std::min(subject.id, most)));
     if (subject.kind == DMRP_SUBJECT_PEDESTRIAN) event.people.push_back(subject.id);
   }
   if (event.severity > DMRP_SEVERITY_SERIOUS) event.severity = DMRP_SEVERITY_INFO;
   if (std::isfinite(c.place.x) && std::isfinite(c.place.y)) event.place = c.place;
-  if (bytes_of(event) > most_event_bytes) return refuse(collected, "event", c.name, "it takes more than 1 MB");
-  if (!has_room(collected, event)) return refuse(collected, "event", c.name, no_room);
-  collected.result.events.push_back(std::move(event));
-  return DMRP_OK;
+  return take(collected, "event", c.name, std::move(event));
 }
 
 dmrp_metric_sink sink_into(CollectedValues& collected) {
@@ -122,20 +88,6 @@ dmrp_metric_sink sink_into(CollectedValues& collected) {
     return event ? or_out_of_memory([&] { return collect_event(collected_by(self), *event); }) : DMRP_ERROR;
   };
   return sink;
-}
-
-// A missing value would look as if the metric had crashed. A metric need not look at what the host answers.
-void check_complete(const CollectedValues& collected, const CallSite& site) {
-  if (collected.bytes > most_result_bytes) throw PluginFault(fault_kind::bad_output, site, no_room);
-  for (const MetricValueSpec& spec : collected.info.values) {
-    const auto& values = collected.result.values;
-    const bool given = std::any_of(values.begin(), values.end(), [&](const MetricValue& v) {
-      return v.metric == spec.name && v.subject_kind == DMRP_SUBJECT_SYSTEM;
-    });
-    if (!given)
-      throw PluginFault(fault_kind::bad_output, site,
-                        fmt::format("gave no system value of {}{}", spec.name, collected.refused));
-  }
 }
 
 }  // namespace
@@ -159,15 +111,16 @@ void Measurement::observe(const dmrp_sample& sample) {
 }
 
 MetricResult Measurement::finish(const dmrp_trial_end& end) {
-  CollectedValues collected = {info_, robot_count_, {index_, {}, {}}, {}};
+  CollectedValues collected = {MetricAnswer(info_, robot_count_, index_)};
   GrownStruct<dmrp_metric_sink> sink(sink_into(collected), metric_.grown_bytes());
   const auto call = [&] {
     return metric_.call("finish", step_, call_budget_ns_, Answers::no_other,
                         [&] { return table_.finish(metric_.self(), &end, &sink.c); });
   };
   with_reason(call, collected.refused);
-  check_complete(collected, metric_.site("finish", step_));
-  return std::move(collected.result);
+  if (const std::string breach = collected.answer.breach(collected.refused); !breach.empty())
+    throw PluginFault(fault_kind::bad_output, metric_.site("finish", step_), breach);
+  return std::move(collected.answer.result());
 }
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "host/check/same_outputs.hpp"
+#include "host/check/examination.hpp"
 
 namespace {
 
