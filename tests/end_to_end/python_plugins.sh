@@ -63,6 +63,14 @@ expect_status 0 "$host" evaluate kinds --metric test.driven
 expect_status 2 "$host" check ./kinds.py
 [[ $(messages) == 1 ]] || fail "check should say in one line that it is for other libraries: $(cat stderr)"
 
+# the templates run at once
+for kind in controller planner pedestrian-model metric; do
+  expect_status 0 "$host" new "$kind" --python --id org.example.my-own.my-thing "$kind"
+  ! grep -rqE 'my_plugin|my_kind' "$kind" || fail "$kind: left from the template"
+  expect_status 0 "$host" "$kind/my_thing.toml" --quiet --trials 1 --out "$kind/run"
+  [[ $(query "$kind/run" "SELECT count(*) FROM fault") == 0 ]] || fail "$kind: $(query "$kind/run" "SELECT * FROM fault")"
+done
+
 # another library where a module beside it has changed
 {
   experiment 1 ./faulty.py
