@@ -9,7 +9,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 libraries=(libboost-dev libeigen3-dev libfcl-dev libccd-dev libtomlplusplus-dev libfmt-dev libcli11-dev libsqlite3-dev
   nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libseccomp-dev libyaml-cpp-dev libpng-dev node-d3
   libjs-three)
-test_libraries=(catch2 coinor-libipopt-dev)
+test_libraries=(catch2 coinor-libipopt-dev python3-numpy python3-pandas python3-matplotlib python3-pytest python3-venv
+  python3-setuptools python3-wheel python3-pip python3-zstandard mypy)
 # tool:package; a tool that is on the path is kept, wherever it came from
 tools=(g++:build-essential make:build-essential cmake:cmake ninja:ninja-build pkg-config:pkg-config sqlite3:sqlite3
   esbuild:esbuild)

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/files/sha256.hpp"
+#include "host/plugins/python_file.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -31,7 +32,10 @@ bool is_file(const fs::path& path) {
 
 BundleLayout::BundleLayout(const Experiment& experiment, const Manifest& manifest, bool all_libraries) {
   for (const LibraryUse& library : experiment.libraries)
-    add_library(library.file, all_libraries || name_of_own_library(library.file).empty());
+    if (is_python_file(library.file))
+      add_python(library);
+    else
+      add_library(library.file, all_libraries || name_of_own_library(library.file).empty());
   for (const ScenarioVariant& variant : experiment.scenarios) add_scenario(variant);
   for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
@@ -74,6 +78,16 @@ void BundleLayout::add_library(const fs::path& file, bool copied) {
   const fs::path place = free_place("plugins" / file.filename());
   copies_[place] = file;
   names_[file] = place.string();
+}
+
+// With the modules that it imports from its folder.
+void BundleLayout::add_python(const LibraryUse& library) {
+  const fs::path root = library.file.parent_path();
+  fs::path& folder = python_folders_[root];
+  if (folder.empty()) folder = free_place(fs::path("plugins") / root.filename());
+  copies_[folder / library.file.filename()] = library.file;
+  names_[library.file] = (folder / library.file.filename()).string();
+  for (const fs::path module : library.objects) copies_[folder / module.filename()] = module;
 }
 
 // "plugins/libmine.so"; "plugins-2/libmine.so", ... for others of that name. The last part stays: a scenario.toml has the

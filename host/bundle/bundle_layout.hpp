@@ -13,7 +13,8 @@
 namespace dmrp::host {
 
 // scenarios/ has scenario files with the files that they name, as they lie to each other; parameters/ has files of
-// parameters and files that parameters name; plugins/ has libraries. All are copied as they are.
+// parameters and files that parameters name; plugins/ has libraries, those in Python with the modules beside them. All are
+// copied as they are.
 class BundleLayout {
  public:
   // `manifest`: of the run, which knows the files of parameters; those that have changed since are left out, as their
@@ -30,11 +31,13 @@ class BundleLayout {
   void add_scenario(const ScenarioVariant& variant);
   void add_parameter(const std::filesystem::path& file);
   void add_library(const std::filesystem::path& file, bool copied);
+  void add_python(const LibraryUse& library);
   std::filesystem::path free_place(const std::filesystem::path& wanted);
 
   std::map<std::filesystem::path, std::string> names_;
   std::map<std::filesystem::path, std::filesystem::path> copies_;
   std::map<std::filesystem::path, std::filesystem::path> scenario_folders_;  // of the bundle, for those of scenarios
+  std::map<std::filesystem::path, std::filesystem::path> python_folders_;    // likewise, for those of Python files
   std::set<std::filesystem::path> taken_;
 };
 

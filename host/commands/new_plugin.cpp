@@ -26,16 +26,19 @@ struct NewOptions {
   std::string kind;  // a folder of the templates
   std::string id;    // of the new plugin
   fs::path folder;
+  bool python = false;
 };
 
 constexpr const char* common_files = "common";
+constexpr const char* python_templates = "python";  // a folder of such folders
 
-// The folders of templates, but the one of common files.
+// The folders of templates, but those that are no kind.
 std::vector<std::string> template_kinds(const fs::path& templates) {
   std::vector<std::string> kinds;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(templates, missing))
-    if (entry.is_directory() && entry.path().filename() != common_files) kinds.push_back(entry.path().filename());
+    if (entry.is_directory() && entry.path().filename() != common_files && entry.path().filename() != python_templates)
+      kinds.push_back(entry.path().filename());
   if (kinds.empty())
     throw InputError("dmrp-host new: no templates in " + templates.string() + " (Debian package dmrp-sdk-dev)");
   std::sort(kinds.begin(), kinds.end());
@@ -122,7 +125,7 @@ void check_folder(const fs::path& folder) {
 }
 
 int new_command(const NewOptions& options) {
-  const fs::path templates = shared_data_path() / "templates";
+  const fs::path templates = shared_data_path() / "templates" / (options.python ? python_templates : "");
   check_kind(options.kind, template_kinds(templates));
   check_id(options.id);
   check_folder(options.folder);
@@ -138,6 +141,10 @@ int new_command(const NewOptions& options) {
   }
   std::sort(written.begin(), written.end());
   fmt::print("{}: {}\n", options.folder.string(), fmt::join(written, ", "));
+  if (options.python) {
+    fmt::print("  cd {} && dmrp-host {}.toml\n", options.folder.string(), names.file_name);
+    return exit_status::done;
+  }
   fmt::print("  cd {} && cmake -S . -B build && cmake --build build && ctest --test-dir build\n",
              options.folder.string());
   return exit_status::done;
@@ -147,13 +154,14 @@ int new_command(const NewOptions& options) {
 
 void add_new(CLI::App& app) {
   const auto options = std::make_shared<NewOptions>();
-  CLI::App* command = app.add_subcommand("new", "write the folder of a new plugin, which builds at once");
+  CLI::App* command = app.add_subcommand("new", "write the folder of a new plugin, which builds and runs at once");
   command->add_option("kind", options->kind, "planner, controller, pedestrian-model or metric")
       ->required()
       ->type_name("KIND");
   command->add_option("--id", options->id, "id of the plugin, under a domain of yours: org.example.mine")
       ->required()
       ->type_name("ID");
+  command->add_flag("--python", options->python, "in Python: nothing is built");
   command->add_option("folder", options->folder, "folder to create; an empty one may be there")
       ->required()
       ->type_name("DIR");

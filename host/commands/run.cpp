@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "host/bundle/bundle.hpp"
 #include "host/commands/bundle_run.hpp"
@@ -46,6 +47,7 @@ struct RunOptions {
   bool trust = false;         // plugins of a bundle
   bool quiet = false;
   bool json = false;                      // results as JSON, without progress
+  std::string progress;                   // "json": a line a finished trial instead of all else; "": the bar
   fs::path bundle;                        // to be written afterwards; empty: none
   std::optional<std::uint64_t> debugged;  // this trial alone
 };
@@ -64,6 +66,32 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   }
   return out + " · " + plural(trials, "trial");
 }
+
+// For programs that show progress of their own: a line of JSON at the start, and one for each finished trial.
+class ProgressLines {
+ public:
+  ProgressLines(bool wanted, std::uint64_t total) : wanted_(wanted), total_(total) {}
+
+  void begin(const fs::path& directory) const {
+    print({{"run_directory", directory.string()}, {"done", done_}, {"total", total_}});
+  }
+
+  void add(std::uint64_t trial, const std::string& outcome) {
+    ++done_;
+    print({{"trial", trial}, {"outcome", outcome}, {"done", done_}, {"total", total_}});
+  }
+
+ private:
+  void print(const nlohmann::ordered_json& line) const {
+    if (!wanted_) return;
+    fmt::print("{}\n", line.dump());
+    std::fflush(stdout);
+  }
+
+  bool wanted_;
+  std::uint64_t total_;
+  std::uint64_t done_ = 0;
+};
 
 // A line for the terminal.
 std::string fault_note(std::uint64_t trial, const FaultRecord& fault) {
@@ -175,10 +203,11 @@ int run_command(const RunOptions& options) {
   if (!options.trust) check_strangers(fs::absolute(options.experiment).parent_path());
   const Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
   check_planners(experiment, options.experiment);
-  if (!options.quiet)
+  const bool is_silent = options.quiet || !options.progress.empty();
+  if (!is_silent)
     for (const std::string& warning : experiment.warnings) warn(warning);
-  if (const std::string gaps = box::gaps(); !options.quiet && !gaps.empty()) warn(gaps);
-  if (!options.quiet)
+  if (const std::string gaps = box::gaps(); !is_silent && !gaps.empty()) warn(gaps);
+  if (!is_silent)
     for (const std::string& id : plugins_watched_for_memory(experiment))
       warn(id + ": the kernel does not hold it to memory_mb: its memory in use is looked at ten times a second");
 
@@ -194,10 +223,13 @@ int run_command(const RunOptions& options) {
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
                                                                      : ResultsDatabase::Finished::all));
 
-  Progress progress(heading(experiment, trials.left()), trials.left(), options.quiet || options.json);
+  Progress progress(heading(experiment, trials.left()), trials.left(), is_silent || options.json);
+  ProgressLines lines(!options.progress.empty(), trials.left());
+  lines.begin(files.directory());
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
                                    database.write(trial);
+                                   lines.add(trial.id, trial.outcome);
                                    progress.add(fault_note(trial));
                                  },
                                  [&](std::uint64_t trial, const FaultRecord& fault) {
@@ -214,7 +246,7 @@ int run_command(const RunOptions& options) {
   const bool reported = try_to_report(results, files.directory());
   if (options.json)
     print_results_as_json(results, layout, files.directory());
-  else if (!options.quiet)
+  else if (!is_silent)
     print_results(results, layout, files.directory(), reported, facts_of(experiment, shard, count).scenarios);
   if (ending == RunEnding::interrupted) {
     fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
@@ -261,7 +293,15 @@ void add_run(CLI::App& app) {
       ->type_name("K");
   command->add_flag("--trust", options->trust, trust_help);
   CLI::Option* quiet = command->add_flag("--quiet", options->quiet, "print neither progress nor results");
-  command->add_flag("--json", options->json, "print the results as JSON, and no progress")->excludes(quiet);
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "print the results as JSON, and no progress")->excludes(quiet);
+  command
+      ->add_option("--progress", options->progress,
+                   "json: print a line of JSON at the start and for each finished trial, and nothing else")
+      ->check(CLI::IsMember({"json"}))
+      ->excludes(quiet)
+      ->excludes(json)
+      ->type_name("json");
   command->add_option("--bundle", options->bundle, "then write a folder that repeats the run elsewhere (see bundle)")
       ->type_name("DIR");
   command

@@ -90,6 +90,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
     identity.erase(key);
   if (const std::vector<std::string> variables = passed_environment(); !variables.empty())
     identity["environment"] = toml_text(variables);
+  for (const LibraryUse& library : experiment.libraries)
+    if (!library.runtime.empty()) identity["python " + library.file.filename().string()] = toml_text(library.runtime);
   for (const auto* uses :
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
     for (std::size_t i = 0; i < uses->size(); ++i) {

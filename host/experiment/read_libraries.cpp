@@ -79,7 +79,7 @@ void read_library(const TomlDocument& document, const TomlValue& value, const Pl
   }
   for (const std::string& warning : probe.warnings)
     experiment.warnings.push_back(document.place(value.position()) + ": " + name + ": " + warning);
-  experiment.libraries.push_back({name, file, probe.plugins, probe.objects, experiment.limits.visible});
+  experiment.libraries.push_back({name, file, probe.plugins, probe.objects, experiment.limits.visible, probe.runtime});
   for (std::size_t i = 0; i < probe.plugins.size(); ++i) check_new_id(value, experiment.libraries, i);
 }
 

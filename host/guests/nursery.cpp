@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "host/errors/machine_error.hpp"
+#include "host/guests/python_guest.hpp"
 #include "host/process/box.hpp"
 #include "host/process/orphans.hpp"
 #include "host/process/view.hpp"
@@ -35,6 +36,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 131072;  // of a setup: its paths
 constexpr std::size_t most_descriptors = 3;
+constexpr int no_python_exit = 127;
 
 // An order is sent as texts, each with a NUL: the program, the number of visible paths, these, and the arguments.
 std::string text_of(const GuestOrder& order) {
@@ -108,6 +110,14 @@ struct Started {
 
 [[noreturn]] void be_guest(GuestOrder order, GuestProgram check_case) {
   close_others(order.descriptors);
+  if (order.program == GuestOrder::Program::python) {
+    try {
+      become_python(order);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    _exit(no_python_exit);
+  }
   const GuestProgram program = order.program == GuestOrder::Program::library ? &run_guest : check_case;
   _exit(program(order.arguments, order.descriptors));
 }

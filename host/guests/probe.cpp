@@ -45,7 +45,8 @@ Probe probe_library(const std::filesystem::path& file, const VisiblePaths& visib
     const nlohmann::json answer = nlohmann::json::parse(guest.loaded());
     kill_orphans({nursery.number()});
     return {answer.at("plugins").get<std::vector<PluginInfo>>(), answer.at("warnings").get<std::vector<std::string>>(),
-            answer.at("objects").get<std::vector<std::string>>(), answer.at("init_error").get<std::string>()};
+            answer.at("objects").get<std::vector<std::string>>(), answer.at("init_error").get<std::string>(),
+            answer.at("runtime").get<std::vector<std::string>>()};
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error("gives an answer that cannot be read while it is loaded");
   } catch (const GuestEnd& end) {

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "host/files/sha256.hpp"
+#include "host/plugins/python_file.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -193,6 +194,7 @@ bool is_visible(const Elf64_Sym& symbol) {
 }  // namespace
 
 std::string why_not_loadable(const std::filesystem::path& file) {
+  if (is_python_file(file)) return "";
   ElfFile elf(file);
   const auto head = elf.read<Elf64_Ehdr>(0);
   if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0) return "is no shared object (it has no ELF header)";

@@ -13,6 +13,7 @@
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
 #include "host/plugins/offered_extensions.hpp"
+#include "host/plugins/python_file.hpp"
 #include "host/plugins/v1_sizes.hpp"
 #include "host/program/executable.hpp"
 
@@ -85,13 +86,30 @@ std::string missing_entry(const std::function<bool(const char*)>& has) {
 Library::Library(const std::filesystem::path& file, const std::function<void(const std::string&)>& stage)
     : handle_(std::make_unique<Handle>()), file_(std::filesystem::absolute(file)) {
   if (const std::string why = why_not_loadable(file); !why.empty()) throw std::runtime_error(why);
+  if (is_python_file(file))
+    import(stage);
+  else
+    load(stage);
+  entry_ = copy_entry(*own_entry_);
+  read_descriptors(stage);
+}
+
+void Library::import(const std::function<void(const std::string&)>& stage) {
+  const PythonFunctions* const python = python_functions();
+  if (!python) throw std::runtime_error("is a Python file, which only a process of its own can load");
+  if (stage) stage("import");
+  own_entry_ = python->open(file_.c_str());
+  if (!own_entry_) throw std::runtime_error(python->error());
+}
+
+void Library::load(const std::function<void(const std::string&)>& stage) {
   const std::uint32_t control_bits = fp_control();
   const std::set<std::string> before = loaded_objects();
   if (stage) stage("dlopen");
   try {
-    handle_->library.load(file, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    handle_->library.load(file_, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
-    throw std::runtime_error("cannot be loaded: " + loader_message(error, file));
+    throw std::runtime_error("cannot be loaded: " + loader_message(error, file_));
   }
   for (const std::string& object : loaded_objects())
     if (!before.contains(object) && std::filesystem::path(object) != file_) objects_.push_back(object);
@@ -103,16 +121,21 @@ Library::Library(const std::filesystem::path& file, const std::function<void(con
   if (!handle_->library.has(DMRP_ENTRY_SYMBOL))
     throw std::runtime_error(missing_entry([&](const char* symbol) { return handle_->library.has(symbol); }));
   own_entry_ = &handle_->library.get<const dmrp_entry>(DMRP_ENTRY_SYMBOL);
-  entry_ = copy_entry(*own_entry_);
+}
 
-  read_descriptors(stage);
+std::vector<std::string> Library::objects() const {
+  return is_python_file(file_) ? lines_of(python_functions()->modules()) : objects_;
+}
+
+std::vector<std::string> Library::runtime() const {
+  return is_python_file(file_) ? lines_of(python_functions()->versions()) : std::vector<std::string>();
 }
 
 void Library::read_descriptors(const std::function<void(const std::string&)>& stage) {
   if (stage) stage("plugin_count()");
   const std::uint32_t count = plugin_count();
   if (count == 0) throw std::runtime_error("holds no plugin");
-  const bool built_in = !name_of_own_library(file_).empty();
+  const bool built_in = !is_python_file(file_) && !name_of_own_library(file_).empty();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (stage) stage(fmt::format("descriptor({})", i));
     const dmrp_descriptor* descriptor = this->descriptor(i);

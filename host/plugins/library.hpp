@@ -38,13 +38,19 @@ class Library {
   const std::filesystem::path& file() const { return file_; }          // absolute
 
   // The shared objects that were loaded with it, as it needs them; those that this process had before are the host's.
-  const std::vector<std::string>& objects() const { return objects_; }
+  // Of a Python file the modules that it has imported from its folder so far.
+  std::vector<std::string> objects() const;
+
+  // Of a Python file: the versions of Python and of packages that it has imported so far; empty for another library.
+  std::vector<std::string> runtime() const;
 
   // One line each: that it changed the process when it was loaded, that a plugin of it is unknown to this host.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Handle;
+  void load(const std::function<void(const std::string&)>& stage);
+  void import(const std::function<void(const std::string&)>& stage);
   void read_descriptors(const std::function<void(const std::string&)>& stage);
 
   std::unique_ptr<Handle> handle_;
@@ -79,6 +85,7 @@ struct Probe {
   std::vector<std::string> warnings{};
   std::vector<std::string> objects{};  // Library::objects()
   std::string init_error{};            // why init() failed, in one line; empty if it succeeded
+  std::vector<std::string> runtime{};  // Library::runtime()
 };
 
 }  // namespace dmrp::host

@@ -24,6 +24,7 @@ struct LibraryUse {
   std::vector<PluginInfo> plugins;
   std::vector<std::string> objects{};  // shared objects that are loaded with it
   VisiblePaths visible{};              // what its plugins see besides its files (host/process/view.hpp); absolute
+  std::vector<std::string> runtime{};  // of a Python file: versions of Python and its packages
 
   // Whether one of its plugins has it.
   bool has_flag(std::uint32_t flag) const {

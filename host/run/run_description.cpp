@@ -8,6 +8,7 @@
 #include "host/experiment/identity.hpp"
 #include "host/plugins/check_descriptor.hpp"
 #include "host/plugins/elf_file.hpp"
+#include "host/plugins/python_file.hpp"
 #include "host/process/box.hpp"
 #include "host/process/sanitized.hpp"
 #include "host/program/commit.hpp"
@@ -85,6 +86,9 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
     manifest.files.back().code = code_digest(library.file);
     objects.insert(library.objects.begin(), library.objects.end());
   }
+  if (std::any_of(experiment.libraries.begin(), experiment.libraries.end(),
+                  [](const LibraryUse& library) { return is_python_file(library.file); }))
+    manifest.files.push_back(hashed_file("python interpreter", python_interpreter()));
   for (const fs::path& object : objects) {
     manifest.files.push_back(hashed_file("plugin object", object));
     manifest.files.back().code = code_digest(object);

@@ -376,7 +376,7 @@ PluginSource source_of(const nlohmann::json& setup) {
   return [setup](const std::filesystem::path& file, const VisiblePaths&) -> Probe {
     const auto found = setup.at("libraries").find(file.string());
     if (found == setup.at("libraries").end()) return {{}, {}, {}, "the supervisor has left it out"};
-    return {found->at("plugins").get<std::vector<PluginInfo>>(), {}, found->at("objects"), ""};
+    return {found->at("plugins").get<std::vector<PluginInfo>>(), {}, found->at("objects"), "", found->at("runtime")};
   };
 }
 

@@ -30,7 +30,8 @@ ChildProcess start(const Experiment& experiment, const std::filesystem::path& sc
 nlohmann::json setup_of(const Experiment& experiment) {
   nlohmann::json libraries = nlohmann::json::object();
   for (const LibraryUse& library : experiment.libraries)
-    libraries[library.file.string()] = {{"plugins", nlohmann::json::array()}, {"objects", library.objects}};
+    libraries[library.file.string()] = {
+        {"plugins", nlohmann::json::array()}, {"objects", library.objects}, {"runtime", library.runtime}};
   std::set<std::string> added;
   for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)

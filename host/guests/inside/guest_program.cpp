@@ -18,6 +18,7 @@
 #include "host/guests/inside/log_line.hpp"
 #include "host/plugins/calls/own_process.hpp"
 #include "host/plugins/elf_file.hpp"
+#include "host/plugins/python_file.hpp"
 #include "host/process/box.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/orphans.hpp"
@@ -146,12 +147,17 @@ VisiblePaths what_shows(const LibraryUse& library) {
     if (folders.insert(file.parent_path()).second)  // host.h: weights lie beside it
       visible.push_back(file.parent_path() / view::all_files);
   visible.insert(visible.end(), files.begin(), files.end());
+  if (is_python_file(library.file)) {
+    visible = {library.file.parent_path() / view::all_files};  // first: the environment may lie in it
+    const VisiblePaths python = files_of_python();
+    visible.insert(visible.end(), python.begin(), python.end());
+  }
   visible.insert(visible.end(), library.visible.begin(), library.visible.end());
   return visible;
 }
 
 GuestOrder order_of(const GuestSetup& setup) {
-  GuestOrder order = {GuestOrder::Program::library,
+  GuestOrder order = {is_python_file(setup.library) ? GuestOrder::Program::python : GuestOrder::Program::library,
                       {setup.written, setup.library.string(), setup.scratch.string()},
                       setup.visible,
                       {setup.memory.judge_descriptor, setup.memory.guest_descriptor}};

@@ -13,7 +13,7 @@ namespace dmrp::host {
 
 // What the nursery is told.
 struct GuestOrder {
-  enum class Program { library, check_case } program;
+  enum class Program { library, check_case, python } program;
   std::vector<std::string> arguments;
   VisiblePaths visible;          // in the guest's view
   std::vector<int> descriptors;  // three at most

@@ -105,7 +105,8 @@ std::string GuestRuntime::probe() {
   return nlohmann::json{{"plugins", library.plugins()},
                         {"warnings", library.warnings()},
                         {"objects", library.objects()},
-                        {"init_error", init_error}}
+                        {"init_error", init_error},
+                        {"runtime", library.runtime()}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

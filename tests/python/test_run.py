@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Runs as data: the findings' own numbers, input errors, interrupted runs."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import dmrp
+import pytest
+from conftest import small_experiment
+
+
+def test_summary_equals_the_file_cell_by_cell(run: dmrp.Run) -> None:
+    summary = run.summary()
+    with (run.path / "summary.csv").open() as file:
+        rows = list(csv.reader(file))
+    assert list(summary.columns) == rows[0]
+    assert len(summary) == len(rows) - 1
+    for (_, row), cells in zip(summary.iterrows(), rows[1:]):
+        for value, cell in zip(row, cells):
+            if cell == "":
+                assert value != value
+            elif isinstance(value, str):
+                assert value == cell
+            else:
+                assert value == float(cell)
+
+
+def test_trials_and_robots_have_a_row_each(run: dmrp.Run) -> None:
+    assert list(run.trials["id"]) == [0, 1, 2]
+    assert "completion_time [s]" in run.trials.columns
+    assert len(run.robots) == 6
+    assert run.faults.empty
+    assert run.sql("SELECT count(*) AS n FROM trial WHERE id < ?", 1)["n"][0] == 1
+
+
+def test_a_mistyped_key_raises_the_hosts_line(tmp_path: Path) -> None:
+    with pytest.raises(dmrp.InputError, match="trails") as raised:
+        small_experiment(simulation={"trails": 1}).run(tmp_path / "run")
+    assert "\n" not in str(raised.value)
+
+
+def test_a_directory_that_is_no_run_raises(tmp_path: Path) -> None:
+    with pytest.raises(dmrp.InputError, match="no run directory"):
+        dmrp.load(tmp_path)
+
+
+def test_a_resumed_run_equals_an_uninterrupted_one(run: dmrp.Run, tmp_path: Path) -> None:
+    def interrupt(progress: dict[str, Any]) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        small_experiment().run(tmp_path / "cut", jobs=1, on_progress=interrupt)
+    cut = dmrp.load(tmp_path / "cut")
+    assert 1 <= len(cut.trials) < 3
+    resumed = cut.resume(jobs=1)
+    values = (
+        "SELECT value.* FROM value JOIN metric ON metric = name WHERE wall_clock = 0 "
+        "ORDER BY trial_id, metric, subject_kind, subject, coordinate"
+    )
+    assert resumed.sql(values).equals(run.sql(values))
+    for trial in range(3):
+        assert resumed.trial(trial).trace.robots.tobytes() == run.trial(trial).trace.robots.tobytes()
+
+
+def test_progress_counts_trials(run: dmrp.Run, progress: list[dict[str, Any]]) -> None:
+    assert [(line["done"], line["total"], line["trial"]) for line in progress] == [(1, 3, 0), (2, 3, 1), (3, 3, 2)]
+    assert [line["outcome"] for line in progress] == list(run.trials["outcome"])
