@@ -7,8 +7,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 libraries=(libboost-dev libeigen3-dev libfcl-dev libccd-dev libtomlplusplus-dev libfmt-dev libcli11-dev libsqlite3-dev
-  nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libseccomp-dev libyaml-cpp-dev libpng-dev node-d3
-  libjs-three)
+  nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libseccomp-dev libyaml-cpp-dev libpng-dev
+  libcairo2-dev node-d3 libjs-three)
 test_libraries=(catch2 coinor-libipopt-dev)
 # tool:package; a tool that is on the path is kept, wherever it came from
 tools=(g++:build-essential make:build-essential cmake:cmake ninja:ninja-build pkg-config:pkg-config sqlite3:sqlite3
