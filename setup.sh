@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 libraries=(libboost-dev libeigen3-dev libfcl-dev libccd-dev libtomlplusplus-dev libfmt-dev libcli11-dev libsqlite3-dev
-  nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libseccomp-dev libyaml-cpp-dev libpng-dev node-d3
+  nlohmann-json3-dev libzstd-dev zlib1g-dev libssl-dev libseccomp-dev libyaml-cpp-dev libpng-dev libcairo2-dev node-d3
   libjs-three)
 test_libraries=(catch2 coinor-libipopt-dev python3-numpy python3-pandas python3-matplotlib python3-pytest python3-venv
   python3-setuptools python3-wheel python3-pip python3-zstandard mypy)

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <array>
 
+#include "core/picture/colors.hpp"
+
 namespace dmrp::core {
 namespace {
 
 constexpr std::size_t candidate_points = 8;  // approximately, of a candidate trajectory
-constexpr double wall_height_m = 2.0;        // shapes at least this tall are walls, lower ones furniture
 constexpr double person_height_m = 1.7;
 
 // Colours that differ under every kind of colour vision (Okabe and Ito, 2008).

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <dmrp/toolkit/polygon.hpp>
-#include <dmrp/toolkit/svg.hpp>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "core/picture/world_picture.hpp"
 #include "core/scene/planning_grids.hpp"
 #include "core/scene/robot_task.hpp"
 #include "core/tasks/task_difficulty.hpp"
@@ -38,78 +39,79 @@ struct DrawOptions {
   std::vector<std::string> plugins;   // libraries, in addition to the plugin path
   std::vector<std::string> settings;  // key=value for the planner
   std::filesystem::path svg;          // empty: standard output; also a .png or .pdf
-  std::filesystem::path png;          // instead of `svg`
 };
 
-constexpr double wall_height_m = 2.0;    // lower shapes are furniture
-constexpr double left_margin_px = 36.0;  // for the coordinates
-
-void draw_shapes(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+void draw_shapes(core::WorldPicture& picture, const core::Scenario& scenario) {
   for (const core::Shape& shape : scenario.shapes) {
-    const char* look = shape.height_m >= wall_height_m ? "wall" : "furniture";
-    if (shape.kind == core::Shape::Kind::circle)
-      picture.circle(shape.center, shape.radius_m, {look}, shape.name);
-    else
-      picture.polygon(shape.vertices, {look}, shape.name);
+    const bool is_circle = shape.kind == core::Shape::Kind::circle;
+    picture.shape({shape.name.c_str(), is_circle ? DMRP_SHAPE_CIRCLE : DMRP_SHAPE_POLYGON,
+                   static_cast<std::uint32_t>(shape.vertices.size()), shape.center, shape.radius_m,
+                   shape.vertices.data(), shape.height_m});
   }
-}
-
-void draw_regions(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
-  for (const core::Region& region : scenario.regions)
-    picture.rectangle({region.lower, region.upper}, {"region"}, region.name);
 }
 
 // Above the region; at the sides of the world, so that the name stays inside.
-void draw_name(toolkit::SvgPlan& picture, const core::Scenario& scenario, const core::Region& region) {
+void draw_name(core::WorldPicture& picture, const core::Scenario& scenario, const core::Region& region) {
   const double share = (middle_of(region).x - scenario.lower.x) / (scenario.upper.x - scenario.lower.x);
   if (share < 0.15)
-    picture.text({region.lower.x, region.upper.y}, region.name, {"name begins"});
+    picture.name({region.lower.x, region.upper.y}, region.name, core::Anchor::begin);
   else if (share > 0.85)
-    picture.text({region.upper.x, region.upper.y}, region.name, {"name ends"});
+    picture.name({region.upper.x, region.upper.y}, region.name, core::Anchor::end);
   else
-    picture.text({middle_of(region).x, region.upper.y}, region.name, {"name"});
+    picture.name({middle_of(region).x, region.upper.y}, region.name);
 }
 
 // Arrows from region to region, on top of what is in between: people walk round it.
-void draw_flows(toolkit::SvgPlan& picture, const core::Scenario& scenario) {
+void draw_flows(core::WorldPicture& picture, const core::Scenario& scenario) {
   for (const core::Flow& flow : scenario.flows)
     for (std::size_t i = 1; i < flow.regions.size(); ++i)
-      picture.arrow(middle_of(scenario.regions[flow.regions[i - 1]]), middle_of(scenario.regions[flow.regions[i]]),
-                    {"flow"});
+      picture.flow(middle_of(scenario.regions[flow.regions[i - 1]]), middle_of(scenario.regions[flow.regions[i]]));
   for (const core::Region& region : scenario.regions) draw_name(picture, scenario, region);
 }
 
-// The footprint at a pose; its circle where the heading is free.
-void draw_footprint(toolkit::SvgPlan& picture, const core::RobotSettings& type, const dmrp_pose& pose,
-                    const toolkit::SvgStyle& style, const std::string& title) {
-  if (type.parts.empty() || std::isnan(pose.theta))
-    return picture.circle({pose.x, pose.y}, type.radius_m, style, title);
-  for (const core::ConvexPolygon& part : type.parts) picture.polygon(toolkit::to_world(pose, part), style, title);
-}
-
-void draw_robots(toolkit::SvgPlan& picture, const Experiment& experiment, const PlannedPaths* paths) {
+void draw_robots(core::WorldPicture& picture, const Experiment& experiment, const PlannedPaths& paths) {
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    std::vector<dmrp_vec2> points;
+    for (const dmrp_waypoint& waypoint : paths[i]) points.push_back({waypoint.x, waypoint.y});
+    picture.line(core::Mark::path, i, points);
+  }
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const core::RobotTask& task = scenario.robots[i];
     const core::RobotSettings& type = experiment.scenarios[0].types.of(task);
-    const auto color = toolkit::series_color(i);
-    if (paths) {
-      std::vector<dmrp_vec2> points;
-      for (const dmrp_waypoint& w : (*paths)[i]) points.push_back({w.x, w.y});
-      picture.polyline(points, {"path", color}, fmt::format("path of {}", task.name));
-    }
-    for (const dmrp_pose& goal : task.goals)
-      draw_footprint(picture, type, goal, {"goal", color}, fmt::format("goal of {}", task.name));
+    std::vector<dmrp_polygon> parts;
+    for (const core::ConvexPolygon& part : type.parts)
+      parts.push_back({part.data(), static_cast<std::uint32_t>(part.size()), 0});
+    const dmrp_footprint footprint = {sizeof(dmrp_footprint),
+                                      static_cast<std::uint32_t>(parts.size()),
+                                      type.radius_m,
+                                      0.0,
+                                      parts.data(),
+                                      sizeof(dmrp_polygon),
+                                      0};
+    for (const dmrp_pose& goal : task.goals) picture.goal(i, footprint, goal);
     const dmrp_pose start = core::start_of(task);
-    draw_footprint(picture, type, start, {"robot", color},
-                   type.type.empty() ? task.name : fmt::format("{} ({})", task.name, type.type));
-    picture.arrow({start.x, start.y}, {start.x + 0.6 * std::cos(start.theta), start.y + 0.6 * std::sin(start.theta)},
-                  {"heading", color});
-    picture.text({start.x + 0.4, start.y + 0.4}, std::to_string(i), {"label", color});
-    if (task.name != fmt::format("robot {}", i)) picture.text({start.x, start.y - 0.8}, task.name, {"name"});
-    for (const dmrp_pose& goal : task.goals)
-      picture.text({goal.x + 0.4, goal.y + 0.4}, std::to_string(i), {"label", color});
+    picture.robot(i, footprint, start);
+    picture.number(i, footprint, {start.x, start.y});
+    if (task.name != fmt::format("robot {}", i)) picture.name({start.x, start.y - 0.8}, task.name);
+    for (const dmrp_pose& goal : task.goals) picture.number(i, footprint, {goal.x, goal.y});
   }
+}
+
+std::string document(const Experiment& experiment, const PlannedPaths& paths, core::PictureFormat format) {
+  const core::Scenario& scenario = experiment.scenarios[0].scenario;
+  core::WorldPicture picture({format}, scenario.lower, scenario.upper, scenario.title);
+  std::vector<core::Mark> marks = {core::Mark::wall, core::Mark::furniture};
+  for (const core::Region& region : scenario.regions) picture.region(region.lower, region.upper);
+  if (!scenario.regions.empty()) marks.push_back(core::Mark::region);
+  draw_shapes(picture, scenario);
+  draw_flows(picture, scenario);
+  if (!scenario.flows.empty()) marks.push_back(core::Mark::flow);
+  draw_robots(picture, experiment, paths);
+  if (!scenario.robots.empty()) marks.insert(marks.end(), {core::Mark::robot, core::Mark::goal});
+  if (!paths.empty()) marks.push_back(core::Mark::path);
+  picture.legend(marks);
+  return picture.painter().document();
 }
 
 core::TaskWishes wishes_of(const DrawOptions& options) {
@@ -174,9 +176,7 @@ std::optional<PlannedPaths> plan_once(const Experiment& experiment) {
 
 int draw_command(const DrawOptions& options) {
   check_output_file("--svg", options.svg);
-  check_output_file("--png", options.png);
-  if (!options.png.empty() && options.png.extension() != ".png")
-    throw InputError(fmt::format("--png {}: does not end in .png", options.png.string()));
+  const core::PictureFormat format = picture_format("--svg", options.svg);
   const bool is_planned = !options.planner.empty() || options.agents > 0;
   Experiment experiment = adhoc_experiment(options.scenario, is_planned);
   experiment.seed = options.seed;
@@ -188,21 +188,13 @@ int draw_command(const DrawOptions& options) {
     add_planner(experiment, options.planner, options.plugins, options.settings, &probe_library);
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);
-  toolkit::SvgPlan picture({scenario.lower, scenario.upper}, scenario.title, 800.0, left_margin_px);
-  picture.axes();
-  draw_regions(picture, scenario);
-  draw_shapes(picture, scenario);
-  draw_flows(picture, scenario);
-  if (options.planner.empty()) {
-    draw_robots(picture, experiment, nullptr);
-  } else {
-    const std::optional<PlannedPaths> paths = plan_once(experiment);
-    if (!paths) return exit_status::faults;
-    draw_robots(picture, experiment, &*paths);
+  PlannedPaths paths;
+  if (!options.planner.empty()) {
+    std::optional<PlannedPaths> planned = plan_once(experiment);
+    if (!planned) return exit_status::faults;
+    paths = std::move(*planned);
   }
-  picture.scale_bar(5.0);
-  write_figure(options.png.empty() ? "--svg" : "--png", options.png.empty() ? options.svg : options.png,
-               picture.document());
+  write_output("--svg", options.svg, document(experiment, paths, format));
   return exit_status::done;
 }
 
@@ -226,9 +218,8 @@ void add_draw(CLI::App& app) {
   command->add_option("--seed", options->seed, "seed of random robots and of randomised planners")
       ->type_name("N")
       ->capture_default_str();
-  CLI::Option* svg = command->add_option("--svg", options->svg, "output file (default: standard output)");
-  svg->type_name("FILE");
-  command->add_option("--png", options->png, "output file, by rsvg-convert")->type_name("FILE.png")->excludes(svg);
+  command->add_option("--svg,--png", options->svg, "output file: .svg, .png or .pdf (default: SVG on standard output)")
+      ->type_name("FILE");
   finish_command(command, "dmrp-host draw mall --agents 8 --svg mall.svg",
                  [options] { return draw_command(*options); });
 }

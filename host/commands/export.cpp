@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/picture/trial_picture.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
@@ -15,7 +16,6 @@
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
 #include "host/export/threshold_chart.hpp"
-#include "host/export/trial_map.hpp"
 #include "host/export/trials_table.hpp"
 #include "host/program/executable.hpp"
 #include "host/report/data/report_data.hpp"
@@ -118,20 +118,22 @@ std::vector<MetricColumn> chosen_metrics(const ExportOptions& options, std::span
 }
 
 std::string map_of(const ExportOptions& options) {
-  core::TraceReader trace(core::TraceRecords(trace_of(options.run_directory, "--map", options.trial)),
-                          core::TraceExtent::samples);
-  return trial_map(trace, fmt::format("{}, trial {}", options.run_directory.filename().string(), options.trial));
+  const core::PictureFormat format = picture_format("--out", options.out);
+  const TrialTrace found = trace_of(options.run_directory, "--map", options.trial);
+  core::TraceReader trace(core::TraceRecords(found.file), core::TraceExtent::samples);
+  core::TrialMap map(trace.world());
+  while (const dmrp_sample* sample = trace.next_sample()) map.observe(*sample);
+  return map.document(format, found.title);
 }
 
 bool is_figure(ExportFormat format) {
-  return format == ExportFormat::table || format == ExportFormat::svg || format == ExportFormat::thresholds ||
-         format == ExportFormat::map;
+  return format == ExportFormat::table || format == ExportFormat::svg || format == ExportFormat::thresholds;
 }
 
 int export_command(const ExportOptions& options) {
   check_output_file("--out", options.out);
   if (options.format == ExportFormat::map) {
-    write_figure("--out", options.out, map_of(options));
+    write_output("--out", options.out, map_of(options));
     return exit_status::done;
   }
   const ReportRun run = read_report_run(options.run_directory);
@@ -179,7 +181,7 @@ void add_export(CLI::App& app) {
             options->format = ExportFormat::map;
             options->trial = trial;
           },
-          "the map of this trial with the robots' plans and ways, as an SVG figure")
+          "the map of this trial with the robots' plans and ways: SVG, or PNG or PDF by the ending of --out")
       ->type_name("TRIAL");
   formats
       ->add_option_function<std::string>(
@@ -200,7 +202,7 @@ void add_export(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--out", options->out,
-                   "output file (default: standard output); figures also as .pdf and .png, by rsvg-convert")
+                   "output file (default: standard output); figures also as .pdf and .png, charts by rsvg-convert")
       ->type_name("FILE");
   finish_command(command, "dmrp-host export runs/quickstart --latex --out tables.tex",
                  [options] { return export_command(*options); });

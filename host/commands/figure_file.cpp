@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/commands/figure_file.hpp"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "host/commands/command_output.hpp"
+#include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/files/read_file.hpp"
 
@@ -50,6 +52,15 @@ void run_converter(std::vector<std::string> arguments) {
 }
 
 }  // namespace
+
+core::PictureFormat picture_format(const char* option, const fs::path& file) {
+  const fs::path ending = file.extension();
+  if (ending == ".png") return core::PictureFormat::png;
+  if (ending == ".pdf") return core::PictureFormat::pdf;
+  if (!ending.empty() && ending != ".svg")
+    throw InputError(fmt::format("{} {}: ends in none of .svg, .png, .pdf", option, file.string()));
+  return core::PictureFormat::svg;
+}
 
 void write_figure(const char* option, const fs::path& file, std::string_view svg) {
   const std::string ending = file.extension().string();

@@ -16,7 +16,24 @@ namespace dmrp::host {
 
 namespace fs = std::filesystem;
 
-fs::path trace_of(const fs::path& run_directory, const char* option, std::uint64_t trial) {
+namespace {
+
+std::string title_of(const fs::path& run_directory, const TrialRecord& trial) {
+  const fs::path run = fs::absolute(run_directory).lexically_normal();
+  std::string title = fmt::format(
+      "{}, trial {}: {}", (run.has_filename() ? run : run.parent_path()).filename().string(), trial.id, trial.scenario);
+  const char* before = ", ";
+  for (const std::string& plugin : {trial.global_planner, trial.local_controller, trial.pedestrian_model}) {
+    if (plugin.empty()) continue;
+    title += before + plugin;
+    before = " + ";
+  }
+  return title;
+}
+
+}  // namespace
+
+TrialTrace trace_of(const fs::path& run_directory, const char* option, std::uint64_t trial) {
   const fs::path database = run_directory / "results.sqlite";
   if (std::error_code ignored; !fs::is_regular_file(database, ignored))
     throw InputError(fmt::format("{}: is no run directory (there is no results.sqlite)", run_directory.string()));
@@ -31,7 +48,7 @@ fs::path trace_of(const fs::path& run_directory, const char* option, std::uint64
     throw InputError(fmt::format("{} {}: no trace was recorded (traces = \"all\" in [record])", option, trial));
   if (!is_trace_of(*row, trace))
     throw InputError(fmt::format("{} {}: {} was changed after the run", option, trial, trace.string()));
-  return trace;
+  return {trace, title_of(run_directory, *row)};
 }
 
 }  // namespace dmrp::host

@@ -4,10 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace dmrp::host {
 
+struct TrialTrace {
+  std::filesystem::path file;
+  std::string title;  // for pictures: "quickstart, trial 0: mall, CBS + DWA + social force"
+};
+
 // `option`: of the trial on the command line, for messages. Throws InputError if there is no such run, trial or trace.
-std::filesystem::path trace_of(const std::filesystem::path& run_directory, const char* option, std::uint64_t trial);
+TrialTrace trace_of(const std::filesystem::path& run_directory, const char* option, std::uint64_t trial);
 
 }  // namespace dmrp::host

@@ -31,7 +31,7 @@ std::vector<std::string> arguments_of(VideoFormat format, int width, int height,
   std::vector<std::string> arguments = {"ffmpeg",    "-y",
                                         "-loglevel", "error",
                                         "-f",        "rawvideo",
-                                        "-pix_fmt",  "rgb24",
+                                        "-pix_fmt",  "bgr0",
                                         "-s",        fmt::format("{}x{}", width, height),
                                         "-r",        std::to_string(frames_a_second(format)),
                                         "-i",        "-"};
@@ -116,9 +116,8 @@ bool VideoEncoder::wait() {
   return ended >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-void VideoEncoder::add(const Canvas& frame) {
-  const auto bytes = frame.bytes();
-  if (!frames_.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+void VideoEncoder::add(std::span<const std::uint8_t> frame) {
+  if (!frames_.write({reinterpret_cast<const char*>(frame.data()), frame.size()}))
     throw MachineError("video: ffmpeg takes no more frames", errno);
 }
 

@@ -4,11 +4,12 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "host/process/descriptor.hpp"
-#include "host/video/canvas.hpp"
 
 namespace dmrp::host {
 
@@ -27,8 +28,8 @@ class VideoEncoder {
   VideoEncoder& operator=(const VideoEncoder&) = delete;
   ~VideoEncoder();
 
-  // Throws MachineError when ffmpeg has ended.
-  void add(const Canvas& frame);
+  // Rows from above, of blue, green, red and an unused byte for each pixel. Throws MachineError when ffmpeg has ended.
+  void add(std::span<const std::uint8_t> frame);
 
   // Throws MachineError if ffmpeg fails; it has said why on standard error.
   void finish();

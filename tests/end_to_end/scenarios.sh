@@ -13,7 +13,8 @@ expect_length() {
   total=$(sed -n "s/^$2: \([0-9.]*\) m in all.*/\1/p" "$scratch/stderr")
   awk -v total="$total" -v target="$3" 'BEGIN { exit !(total >= 0.97 * target && total <= 1.03 * target) }' ||
     fail "$1: $2 plans $total m in all, not $3 m"
-  (($(grep -c 'class="path"' "$scratch/$1.$2.svg") == 4)) || fail "$1: the picture should show four paths"
+  (($(grep -c 'stroke-width:2.5;' "$scratch/$1.$2.svg") == 5)) || # the legend has one too
+    fail "$1: the picture should show four paths"
 }
 
 # The shipped world without people: flows come last in the file.
@@ -77,7 +78,8 @@ expect_world() {
   grep -q "^time_limit_s = $3\$" "$shipped/$1/scenario.toml" || fail "$1: the time limit is not $3 s"
   grep -q "]($1.svg)" "$shipped/$1/README.md" || fail "$1: the README shows no picture"
   # without paths: a planner may choose others of the same length
-  cmp -s <(grep -v 'class="path"' "$scratch/$1.dmrp.planner.cbs.svg") <(grep -v 'class="path"' "$shipped/$1/$1.svg") ||
+  cmp -s <(grep -v 'stroke-width:2.5;' "$scratch/$1.dmrp.planner.cbs.svg") \
+    <(grep -v 'stroke-width:2.5;' "$shipped/$1/$1.svg") ||
     fail "$1.svg is old: dmrp-host draw $1 --planner dmrp.planner.cbs --svg $1.svg"
 }
 

@@ -23,13 +23,21 @@ for ending in mp4 gif; do
   [[ $(cat "trial.$ending") == video && ! -e trial.$ending.part ]] || fail "no trial.$ending"
   frames=$(sed -nE 's/.*: ([0-9]+) frames, .*/\1/p' stdout)
   size=$(grep -xE '[0-9]+x[0-9]+' arguments)
-  (($(cat bytes) == frames * 3 * ${size%x*} * ${size#*x})) || fail "$(cat bytes) bytes, not $frames frames of $size"
+  (($(cat bytes) == frames * 4 * ${size%x*} * ${size#*x})) || fail "$(cat bytes) bytes, not $frames frames of $size"
   rate=$(grep -x -A1 -e -r arguments | tail -1)
   seconds=$(query run "SELECT sim_time_s FROM trial WHERE id = 0")
   # the trial and one second of its end, to a frame or two
   awk -v f="$frames" -v r="$rate" -v s="$seconds" 'BEGIN { exit !(f / r > s + 0.9 && f / r < s + 1.3) }' ||
     fail "$frames frames at $rate a second for $seconds s"
 done
+
+# 1080p, and a part of the trial at another speed: two seconds in one, and a second of its end
+expect_status 0 env PATH="$with_ffmpeg" "$host" video run --trial 0 --out part.mp4 --from 1 --to 3 --speed 2 --title "a part"
+grep -qx 1920x1080 arguments || fail "not 1080p: $(cat arguments)"
+[[ $(cat stdout) == "part.mp4: 51 frames, 2.0 s" ]] || fail "$(cat stdout)"
+expect_status 2 "$host" video run --trial 0 --out part.mp4 --from 3 --to 1
+expect_status 2 "$host" video run --trial 0 --out part.mp4 --from 1000
+grep -q -- '--from 1000: trial 0 ends at' stderr || fail "$(cat stderr)"
 
 # a pipe stays one
 mkfifo pipe.mp4

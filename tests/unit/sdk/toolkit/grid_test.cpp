@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grid views, lines on grids, the distance transform, navigation fields, snapping and drawings.
+// Grid views, lines on grids, the distance transform, navigation fields, snapping and what SVG needs.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -459,36 +459,8 @@ TEST_CASE("SVG numbers are short and well-formed", "[toolkit]") {
   CHECK(format_svg_number(1e9) == "1000000000");
 }
 
-TEST_CASE("a plan is drawn to scale, y up, with its texts escaped", "[toolkit]") {
-  SvgPlan plan({{-10.0, 0.0}, {10.0, 5.0}}, "shops & <stalls>", 400.0);  // 20 pixels a metre, corner at (16, 48)
-  plan.rectangle({{-10.0, 0.0}, {-9.0, 0.5}}, {"wall"}, "west \"wall\"");
-  plan.circle({0.0, 5.0}, 0.25, {"robot", series_color(1)});
-  plan.polygon(std::vector<dmrp_vec2>{{0, 0}, {1, 0}, {0, 1}}, {"furniture"});
-  plan.polyline(std::vector<dmrp_pose>{{0, 0, 1}, {1, 1, 2}}, {"path", series_color(0)});
-  plan.text({10.0, 5.0}, "R\x01", {"label"});
-  plan.scale_bar(5.0);
-  const std::string svg = plan.document();
-  const auto has = [&](const std::string& part) { return svg.find(part) != std::string::npos; };
-  CHECK(svg.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 432 196\"", 0) == 0);
-  CHECK(
-      has("<rect x=\"16\" y=\"138\" width=\"20\" height=\"10\" class=\"wall\"><title>west "
-          "&quot;wall&quot;</title></rect>"));
-  CHECK(has("<circle cx=\"216\" cy=\"48\" r=\"5\" class=\"robot\" style=\"fill:#d55e00\"/>"));
-  CHECK(has("<polygon points=\"216,148 236,148 216,128\" class=\"furniture\"/>"));
-  CHECK(has("<polyline points=\"216,148 236,128\" class=\"path\" style=\"stroke:#0072b2\"/>"));
-  CHECK(has("<text x=\"416\" y=\"48\" class=\"label\">R </text>"));
-  CHECK(has(">shops &amp; &lt;stalls&gt;</text>"));
-  CHECK(has(">5 m</text>"));
-  CHECK(svg.substr(svg.size() - 7) == "</svg>\n");
-  CHECK(std::count(svg.begin(), svg.end(), '<') == std::count(svg.begin(), svg.end(), '>'));
-}
-
-TEST_CASE("an arrow's head points at its end", "[toolkit]") {
-  SvgPlan plan({{0.0, 0.0}, {10.0, 10.0}}, "", 100.0);  // 10 pixels a metre, corner at (16, 16)
-  plan.arrow({1.0, 5.0}, {5.0, 5.0}, {"path"});
-  const std::string svg = plan.document();
-  CHECK(svg.find("<polyline points=\"26,66 66,66\"") != std::string::npos);
-  CHECK(svg.find("<polyline points=\"59.7,69.04 66,66 59.7,62.96\"") != std::string::npos);
+TEST_CASE("text for SVG is escaped", "[toolkit]") {
+  CHECK(escape_xml("shops & <stalls>, \"R\x01\"") == "shops &amp; &lt;stalls&gt;, &quot;R &quot;");
 }
 
 TEST_CASE("neighbouring series have different colours", "[toolkit]") {
