@@ -106,6 +106,19 @@ std::string fault_note(const TrialRecord& trial) {
   return trial.faults.empty() ? "" : fault_note(trial.id, trial.faults.front());
 }
 
+// Why the exit status is 1, also where nobody sees the progress. False if no trial has a fault.
+bool say_faults(std::span<const TrialRecord> trials) {
+  const auto first =
+      std::find_if(trials.begin(), trials.end(), [](const TrialRecord& trial) { return has_fault(trial); });
+  if (first == trials.end()) return false;
+  const auto count = std::count_if(first, trials.end(), [](const TrialRecord& trial) { return has_fault(trial); });
+  std::fputs(
+      fmt::format("dmrp-host: {} of {} with a fault; {}\n", count, plural(trials.size(), "trial"), fault_note(*first))
+          .c_str(),
+      stderr);
+  return true;
+}
+
 // Rows that are there must be those of the experiment, with the plans that are there.
 void check_rows(const ResultsDatabase& database, const Experiment& experiment, const fs::path& directory) {
   const StoredPlans plans(directory);
@@ -254,9 +267,7 @@ int run_command(const RunOptions& options) {
     return exit_status::interrupted;
   }
   if (!options.bundle.empty()) bundle_run(files.directory(), options.bundle, false);
-  const bool faults = std::any_of(results.trials.begin(), results.trials.end(),
-                                  [](const TrialRecord& trial) { return has_fault(trial); });
-  return faults ? exit_status::faults : exit_status::done;
+  return say_faults(results.trials) ? exit_status::faults : exit_status::done;
 }
 
 std::string check_shard(const std::string& text) {

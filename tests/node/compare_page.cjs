@@ -12,6 +12,8 @@ const {
   scratch_folder,
   with_data,
   open_report,
+  shared_report,
+  close,
   check_layout,
   run_tests,
 } = require('./report_browser.cjs');
@@ -44,12 +46,7 @@ function compared() {
 }
 
 const page_of_both = compared();
-const opened_page = (browser, file, more = {}) => open_report(browser, file, {...more, last: '#run-0-2.ready'});
-
-async function close({page, said}) {
-  assert.deepStrictEqual(said, []);
-  await page.context().close();
-}
+const last = '#run-0-2.ready';
 
 const cells = (row) => row.locator('td').allTextContents();
 
@@ -57,14 +54,14 @@ const tests = {
   async 'fits a laptop and a phone, light and dark'(browser) {
     for (const viewport of [undefined, PHONE])
       for (const colorScheme of ['light', 'dark']) {
-        const opened = await opened_page(browser, page_of_both, {viewport, colorScheme});
+        const opened = await shared_report(browser, page_of_both, {viewport, colorScheme, last});
         await check_layout(opened.page, 'the comparison');
         await close(opened);
       }
   },
 
   async 'says that more robots arrive, and with which controller'(browser) {
-    const opened = await opened_page(browser, page_of_both);
+    const opened = await shared_report(browser, page_of_both, {last});
     const {page} = opened;
     assert.match(await page.locator('.verdict').textContent(), /Better over all trials:.*; success \+0\.50.*completion time \u2212/);
     await page.getByLabel('Metric').selectOption({label: 'completion time (s)'});
@@ -90,7 +87,7 @@ const tests = {
       }
       run.libraries[0].after = 'f'.repeat(64);
     });
-    const opened = await opened_page(browser, exchanged);
+    const opened = await open_report(browser, exchanged, {last});
     assert.match(await opened.page.locator('.verdict').textContent(), /Worse over all trials:.*completion time \+/);
     assert.deepStrictEqual(
       (await opened.page.locator('#run-0-2 .files .judged').allTextContents()).filter((state) => state !== 'same'),
@@ -105,7 +102,7 @@ const tests = {
       for (const one of data.runs[0].differences) Object.assign(one, {tasks: 3, p: null, p_holm: null, equal: false, difference: 0.123});
       data.runs[0].only_before = 2;
     });
-    const opened = await opened_page(browser, few);
+    const opened = await open_report(browser, few, {last});
     const verdict = await opened.page.locator('.verdict').textContent();
     assert.match(verdict, /No metric can be told apart/);
     assert.match(verdict, /3 tasks: no difference can be told apart with fewer than 5/);

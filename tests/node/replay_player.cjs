@@ -10,6 +10,8 @@ const {
   run_experiment,
   scratch_folder,
   open_report,
+  shared_report,
+  close,
   with_replay,
   run_tests,
 } = require('./report_browser.cjs');
@@ -23,17 +25,15 @@ const project = process.argv[2];
 const {recording} = page_modules(path.join(project, 'host/report/page'), {recording: 'replay/recording.js'});
 const report = run_experiment(path.join(project, 'examples/quickstart.toml'), path.join(scratch_folder(), 'run'));
 
-async function open_replay(browser, options = {}) {
-  const opened = await open_report(browser, options.report || report, options);
-  await opened.page.evaluate(() => dmrp.open_replay(dmrp.data.replays[0].trial));
-  await opened.page.locator('#replay[data-trial]').waitFor();
+async function begin(opened) {
+  const trial = await opened.page.evaluate(() => dmrp.data.replays[0].trial);
+  await opened.page.evaluate((id) => dmrp.open_replay(id), trial);
+  await opened.page.locator(`#replay[data-trial="${trial}"]`).waitFor();
   return opened;
 }
 
-async function close({page, said}) {
-  await page.context().close();
-  assert.deepStrictEqual(said, []);
-}
+const open_replay = async (browser, options = {}) => begin(await open_report(browser, options.report || report, options));
+const shared_replay = async (browser, options = {}) => begin(await shared_report(browser, report, options));
 
 const seconds = async (page) => parseFloat(await page.getByTestId('replay-time').textContent());
 const pressed = (page, robot) => page.getByTestId(`replay-robot-${robot}`).getAttribute('aria-pressed');
@@ -41,7 +41,7 @@ const pressed = (page, robot) => page.getByTestId(`replay-robot-${robot}`).getAt
 const tests = {};
 
 tests['keys move the time and pick robots'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   await page.getByTestId('replay-stage').focus();
   for (const key of ['ArrowRight', 'ArrowRight', 'Shift+ArrowRight', 'ArrowLeft']) await page.keyboard.press(key);
@@ -68,7 +68,7 @@ tests['keys move the time and pick robots'] = async (browser) => {
 
 tests['map, time line and controls are in the window together'] = async (browser) => {
   for (const viewport of [LAPTOP, PHONE]) {
-    const opened = await open_replay(browser, {viewport});
+    const opened = await shared_replay(browser, {viewport});
     const {page} = opened;
     await page.waitForTimeout(300);
     const below = (await page.locator('#contents').boundingBox()).height;
@@ -83,7 +83,7 @@ tests['map, time line and controls are in the window together'] = async (browser
 };
 
 tests['the whole world is shown at first'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   // the share of pixels that differ from the first picture
   const differs = () =>
@@ -103,7 +103,7 @@ tests['the whole world is shown at first'] = async (browser) => {
 };
 
 tests['the player fills the screen and leaves it'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   const height = async () => (await page.getByTestId('replay-stage').boundingBox()).height;
   const before = await height();
@@ -167,8 +167,11 @@ function of_three_kinds() {
 
 tests['the 3-D view shows kinds of robots and walking people, from three cameras'] = async (browser) => {
   const pictures = {};
-  for (const [name, shown] of Object.entries({discs: report, kinds: of_three_kinds()})) {
-    const opened = await open_replay(browser, {report: shown, viewport: SMALL});
+  for (const [name, open] of Object.entries({
+    discs: () => shared_replay(browser, {viewport: SMALL}),
+    kinds: () => open_replay(browser, {report: of_three_kinds(), viewport: SMALL}),
+  })) {
+    const opened = await open();
     const {page} = opened;
     // 3-D pictures are kept to the end of the task that drew them
     const picture = (click) =>
@@ -193,7 +196,7 @@ tests['the 3-D view shows kinds of robots and walking people, from three cameras
 };
 
 tests['picture, curves and video are saved, flat and in 3-D'] = async (browser) => {
-  const opened = await open_replay(browser, {viewport: SMALL});
+  const opened = await shared_replay(browser, {viewport: SMALL});
   const {page} = opened;
   const bytes = async (saved) => fs.readFileSync(await saved.path());
   const download = async (click) => (await Promise.all([page.waitForEvent('download'), click()]))[0];
@@ -218,7 +221,7 @@ tests['picture, curves and video are saved, flat and in 3-D'] = async (browser) 
 };
 
 tests['a robot is picked on the map, an event is jumped to'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   // where robot 1 starts, in the whole world with its margin of 10 px
   const replay = await recording.load({
@@ -241,7 +244,7 @@ tests['a robot is picked on the map, an event is jumped to'] = async (browser) =
 };
 
 tests['another trial starts at time zero'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   const ids = await page.evaluate(() => dmrp.data.replays.map((replay) => replay.trial));
   assert.ok(ids.length > 1, 'the quickstart has one replay only');
@@ -254,7 +257,7 @@ tests['another trial starts at time zero'] = async (browser) => {
 };
 
 tests['the time and the picture agree with the trace'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const found = await opened.page.evaluate(() => {
     const entry = dmrp.data.replays[0];
     const row = dmrp.data.trials.id.indexOf(entry.trial);
@@ -333,7 +336,7 @@ tests['a damaged three.js is reported, the flat map stays'] = async (browser) =>
 };
 
 tests['a damaged replay is reported, the others play'] = async (browser) => {
-  const opened = await open_replay(browser);
+  const opened = await shared_replay(browser);
   const {page} = opened;
   await page.evaluate(() => {
     document.getElementById(dmrp.data.replays[1].element).textContent = 'AAAA';

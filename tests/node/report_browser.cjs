@@ -80,6 +80,7 @@ async function open_report(
     hasTouch: viewport.width < 600,
     isMobile: viewport.width < 600,
   });
+  context.setDefaultTimeout(0); // CTest's time limit is that of a test: the machine may be busy
   const page = await context.newPage();
   const said = [];
   const url = `file://${report}`;
@@ -95,6 +96,22 @@ async function open_report(
   await page.goto(url);
   await page.locator(last).waitFor({state: 'attached'});
   return {page, said};
+}
+
+// The same for checks that leave the page as others can use it: these share one page of a report and a screen.
+const shared = new Map();
+async function shared_report(browser, report, {viewport = LAPTOP, colorScheme = 'light', ...more} = {}) {
+  const key = `${report} ${viewport.width}`;
+  if (!shared.has(key)) shared.set(key, {...(await open_report(browser, report, {viewport, ...more})), is_shared: true});
+  const opened = shared.get(key);
+  await opened.page.emulateMedia({colorScheme});
+  await opened.page.waitForFunction((scheme) => document.documentElement.dataset.theme === scheme, colorScheme);
+  return opened;
+}
+
+async function close({page, said, is_shared}) {
+  assert.deepStrictEqual(said, []);
+  if (!is_shared) await page.context().close();
 }
 
 // Checks that no plot or section is empty, the page fits the screen, a wide screen cuts no table and a small one says
@@ -241,6 +258,8 @@ module.exports = {
   with_data,
   with_replay,
   open_report,
+  shared_report,
+  close,
   check_layout,
   images_of,
   pages_of,
