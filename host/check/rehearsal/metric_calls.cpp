@@ -16,8 +16,7 @@ namespace {
 class MetricCalls {
  public:
   MetricCalls(Instance& instance, const PluginInfo& info, Stage& stage)
-      : instance_(instance),
-        info_(info),
+      : info_(info),
         stage_(stage),
         robot_count_(static_cast<std::uint32_t>(stage.world.robots().size())),
         extensions_(instance, info, stage, 0),
@@ -154,7 +153,6 @@ class MetricCalls {
     return false;
   }
 
-  Instance& instance_;
   const PluginInfo& info_;
   Stage& stage_;
   std::uint32_t robot_count_;
