@@ -45,7 +45,9 @@ function(dmrp_add_test name)
     if(source MATCHES "^(.*/)?([^/]+)_test\\.cpp$")
       set(test ${area}/${CMAKE_MATCH_1}${CMAKE_MATCH_2})
       add_test(NAME ${test} COMMAND ${name} --warn NoTests --filenames-as-tags "[#${CMAKE_MATCH_2}_test]")
-      set_tests_properties(${test} PROPERTIES LABELS "${area};unit" SKIP_REGULAR_EXPRESSION "skipped: ")
+      set_tests_properties(
+        ${test} PROPERTIES LABELS "${area};unit" SKIP_REGULAR_EXPRESSION "skipped: " ENVIRONMENT
+                           "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/leaks_of_others.txt:print_suppressions=0")
     endif()
   endforeach()
 endfunction()
