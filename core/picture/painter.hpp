@@ -60,10 +60,10 @@ class Painter {
   // Ends an SVG, a PDF or a PNG.
   std::string document();
 
-  // Of a frame: rows from above, of blue, green, red and an unused byte for each dot.
+  // A frame's rows from above; each dot has a byte of blue, green and red, and an unused one.
   std::span<const std::uint8_t> frame();
 
-  // Of a frame: makes this one equal to another one of the same size.
+  // Makes this frame equal to another one of the same size.
   void copy(Painter& other);
 
  private:

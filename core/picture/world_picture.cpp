@@ -76,7 +76,7 @@ const Look& look_of(Mark mark) {
   return style_of(mark).look;
 }
 
-// In the robot's colour.
+// A mark of a robot has the robot's colour.
 Look look_of(Mark mark, std::size_t robot) {
   Look look = look_of(mark);
   for (std::optional<Ink>* ink : {&look.fill, &look.line})
@@ -84,7 +84,7 @@ Look look_of(Mark mark, std::size_t robot) {
   return look;
 }
 
-// Where an ink is too light for letters on white.
+// Letters on white need darker inks than marks do.
 Ink darker(const Ink& ink) {
   const auto part = [](std::uint8_t value) { return static_cast<std::uint8_t>(value * 7 / 10); };
   return {part(ink.red), part(ink.green), part(ink.blue)};
@@ -256,7 +256,7 @@ void WorldPicture::start(std::size_t robot, dmrp_vec2 at) {
   number_at(robot, place(at) + dmrp_vec2{9.0, -9.0});
 }
 
-// With a nose where it looks.
+// A body has a nose where it looks.
 void WorldPicture::robot(std::size_t robot, const dmrp_footprint& footprint, const dmrp_pose& pose,
                          std::uint32_t state) {
   const dmrp_vec2 at = place({pose.x, pose.y});

@@ -34,7 +34,7 @@ enum class Mark : std::uint8_t {
   contact
 };
 
-// In `format`; frames have a size in dots, documents fit the world.
+// The picture has this `format`: frames have a size in dots, documents fit the world.
 struct Page {
   PictureFormat format = PictureFormat::svg;
   double width = 0.0;
@@ -45,7 +45,7 @@ struct Page {
 // are larger than they are. What is drawn later lies on top.
 class WorldPicture {
  public:
-  // With a grid whose lines are named in metres. `title`: may be empty.
+  // Draws the world on a grid whose lines are named in metres. `title` may be empty.
   WorldPicture(const Page& page, dmrp_vec2 lower, dmrp_vec2 upper, std::string_view title);
 
   void shape(const dmrp_shape& shape);
@@ -71,7 +71,7 @@ class WorldPicture {
   Painter& painter() { return painter_; }
 
  private:
-  // Where on the page the world is, in pixels.
+  // The world's place on the page, in pixels.
   struct Layout {
     Layout(const Page& page, dmrp_vec2 lower, dmrp_vec2 upper);
     double zoom = 1.0;
