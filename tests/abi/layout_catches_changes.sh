@@ -30,3 +30,14 @@ expect_notice plugin.h 's/  int32_t robot; .*/  uint32_t robot;/'
 expect_notice plugin.h 's/dmrp_instance\* self, const dmrp_start\* start/const dmrp_start* start, dmrp_instance* self/'
 expect_notice ext/lidar.h 's/const dmrp_lidar\* lidar, uint32_t robot/const dmrp_lidar* lidar, int32_t robot/'
 expect_notice ext/annotate.h 's/dmrp.annotate.1/dmrp.annotate\/2/'
+
+# --update writes what is gone only for a higher draft, and what is new at once
+cp "$here/layout.sh" "$here/layout.awk" "$here/v1.txt" "$scratch"
+update() { "$scratch/layout.sh" "$scratch/include" "$compiler" --update >/dev/null; }
+expect_notice status.h '/DMRP_TIMEOUT 3/d'
+! update || { echo "FAILED: a constant goes with the same draft" && exit 1; }
+sed -i 's/DMRP_ABI_DRAFT [0-9]*/DMRP_ABI_DRAFT 99/' "$scratch/include/dmrp/abi.h"
+update || { echo "FAILED: a constant cannot go with another draft" && exit 1; }
+expect_notice status.h 's/.*DMRP_TIMEOUT 3.*/&\n#define DMRP_SLOW 32/'
+cp "$here/v1.txt" "$scratch"
+update || { echo "FAILED: a constant cannot be added" && exit 1; }

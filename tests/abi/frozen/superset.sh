@@ -3,9 +3,9 @@
 # The contract of INCLUDE_DIR contains the frozen one (1.0.txt, 1.0/): every frozen struct begins as it did, with the same
 # fields and function types at the same places, and every frozen constant has its value. What is new stands in
 # `#if DMRP_TARGET_MINOR >= n`. A sentence of the headers that has changed has a line in VERSIONING.md.
+# While the draft number is not 0 nothing is frozen, and there is nothing to contain.
 #
-# Called as: superset.sh INCLUDE_DIR C_COMPILER [--refreeze]. Nothing but --refreeze writes to what is frozen, and it does
-# so only for a higher draft number, or for the draft number zero, which is the freeze; after that never again.
+# Called as: superset.sh INCLUDE_DIR C_COMPILER [--freeze]. --freeze copies the headers, once, when their draft number is 0.
 set -euo pipefail
 export LC_ALL=C
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -24,27 +24,20 @@ described() { awk -f "$here/../describe.awk" "$1"/dmrp/*.h "$1"/dmrp/ext/*.h; }
 draft_of() { sed -n 's/^#define DMRP_ABI_DRAFT //p' "$1/dmrp/abi.h"; }
 
 draft=$(draft_of "$include")
-if [[ ${3:-} == --refreeze ]]; then
-  if [[ -d $frozen ]]; then
-    frozen_draft=$(draft_of "$frozen")
-    ((frozen_draft != 0 && (draft == 0 || draft > frozen_draft))) ||
-      { echo "refused: draft $frozen_draft is frozen, and the headers have draft $draft" && exit 1; }
-    rm -r "$frozen"
-  fi
+if ((draft != 0)); then
+  [[ ! -d $frozen ]] || { echo "v1 is frozen: DMRP_ABI_DRAFT stays 0" && exit 1; }
+  echo "draft $draft: nothing is frozen yet"
+  exit 77
+fi
+if [[ ${3:-} == --freeze ]]; then
+  [[ ! -d $frozen ]] || { echo "refused: v1 is frozen" && exit 1; }
   mkdir -p "$frozen/dmrp"
   cp -r "$include"/dmrp/{*.h,plugin.hpp,cpp,ext} "$frozen/dmrp"
   echo "DisableFormat: true" >"$frozen/.clang-format"
   layout "$include" >"$frozen.txt"
-  echo "draft $draft is frozen; old_plugins.sh --record writes what plugins built from it answer"
   exit
 fi
-
-frozen_draft=$(draft_of "$frozen")
-if ((draft != frozen_draft)); then
-  ((frozen_draft != 0)) || { echo "v1 is frozen: DMRP_ABI_DRAFT stays 0" && exit 1; }
-  echo "the headers have draft $draft, frozen is draft $frozen_draft: when the draft is whole, $0 $include $compiler --refreeze"
-  exit 1
-fi
+[[ -d $frozen ]] || { echo "the draft number is 0, and nothing is frozen: $0 $include $compiler --freeze" && exit 1; }
 layout "$frozen" >"$scratch/frozen.txt"
 cmp -s "$scratch/frozen.txt" "$frozen.txt" || { echo "1.0.txt is not the layout of 1.0/: one was edited" && exit 1; }
 layout "$include" >"$scratch/now.txt"

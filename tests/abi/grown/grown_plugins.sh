@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Headers of a next minor version, in which everything has grown. They and the templates compile in every standard that
-# is promised. Plugins built with them for 1.0 answer on this host as they did when the contract was frozen, without a
-# warning of the compiler; for a later host they are refused with both versions.
+# is promised. Plugins built with them for 1.0 answer on this host as recorded, without a warning of the compiler; for a
+# later host they are refused with both versions.
 # Called as: grown_plugins.sh ANSWERS DMRP_HOST INCLUDE_DIR EXAMPLES_DIR C_COMPILER CXX_COMPILER
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 answers=$1 host=$2 include=$3 examples=$4 c=$5 cxx=$6
-sources=$here/../old_plugins recorded=$here/../frozen/answers.txt
+sources=$here/../old_plugins
+recorded=$sources/answers.txt
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$here/grow.sh" "$include" "$scratch/grown"
