@@ -14,7 +14,8 @@ echo "no library" >libtext.so
 head -c 20000 "$plugins/libdmrp_planners.so" >libtruncated.so
 contents() { find "$work" -type f -not -name experiment.toml -exec sha256sum {} + | sort; }
 
-# expect_mistake NAME SED_ON_EXPERIMENT SED_ON_SCENARIO PATTERN: of the answer to the crossing, changed by sed
+# expect_mistake NAME SED_ON_EXPERIMENT SED_ON_SCENARIO PATTERN: of the answers of `calls` to the crossing, changed by sed
+calls=("experiment.toml --out out" "validate experiment.toml" "experiment.toml")
 expect_mistake() {
   local name=$1 pattern=$4
   sed "$2" "$here/crossing.toml" >experiment.toml
@@ -22,7 +23,7 @@ expect_mistake() {
   [[ $pattern == "" || -n $2$3 ]] || fail "$name: nothing was changed"
   local before call
   before=$(contents)
-  for call in "experiment.toml --out out" "validate experiment.toml" "experiment.toml"; do
+  for call in "${calls[@]}"; do
     # shellcheck disable=SC2086
     expect_status 2 "$host" $call
     [[ $(messages) == 1 ]] || fail "$name: not one line but: $(cat "$scratch/stderr")"
@@ -39,13 +40,17 @@ expect_status 0 "$host" validate experiment.toml
 line='^experiment\.toml:[0-9]+:[0-9]+: '
 robot='scenario\.toml:[0-9]+:[0-9]+: robot 0 '
 expect_mistake "misspelt key" 's/^trials /trails /' '' "$line.*'trails'.*did you mean 'trials'"
+expect_mistake "parameter out of range" '/pure_pursuit/aparams = { lookahead_time = -1.0 }' '' "$line.*lookahead_time"
+expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$robot.*inside 'pillar'"
+
+# all commands read by one reader: the rest is asked of one
+calls=("experiment.toml --out out")
 expect_mistake "misspelt table" 's/global_planner/global_planer/' '' "$line.*'global_planer'.*did you mean 'global_planner'"
 expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"
 expect_mistake "missing key" '/^plugins/d' '' "$line.*plugins"
 expect_mistake "missing table" '/^\[\[global_planner/,/^$/d' '' "$line.*global_planner"
 expect_mistake "wrong type" 's/^trials .*/trials = "three"/' '' "$line.*trials"
 expect_mistake "value out of range" 's/^trials .*/trials = 0/' '' "$line.*trials"
-expect_mistake "parameter out of range" '/pure_pursuit/aparams = { lookahead_time = -1.0 }' '' "$line.*lookahead_time"
 expect_mistake "no TOML" 's/^trials .*/trials = = 3/' '' "$line"
 expect_mistake "unknown plugin" 's/planner.cbs/planner.csb/' '' "$line.*'dmrp.planner.csb'.*did you mean 'dmrp.planner.cbs'"
 expect_mistake "short name of a plugin" 's/dmrp.controller.dwa/DWA/' '' "$line.*'DWA'.*did you mean 'dmrp.controller.dwa'"
@@ -58,7 +63,6 @@ expect_mistake "text as library" 's|libdmrp_planners|./libtext|' '' "$line.*libt
 expect_mistake "truncated library" 's|libdmrp_planners|./libtruncated|' '' "$line.*libtruncated.so: "
 expect_mistake "unknown scenario" 's/"crossing"$/"crosing"/' '' "$line.*'crosing'"
 expect_mistake "people without a model" '/pedestrian_model/d;/pedestrian\.social/d' '' "$line.*2 people.*pedestrian_model"
-expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$robot.*inside 'pillar'"
 expect_mistake "start too near to a wall" '' 's/^start = \[0.5, 2.5/start = [2.4, 3.6/' "$robot.*pillar.*clearance"
 expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
 expect_mistake "groups larger than their flow" '' 's/^people = .*/&\ngroup_size = 99/' "scenario\.toml:[0-9]+:[0-9]+: 'group_size' must be at most 'people', 2, not 99"

@@ -42,7 +42,7 @@ grep -q -- '--from 1000: trial 0 ends at' stderr || fail "$(cat stderr)"
 # a pipe stays one
 mkfifo pipe.mp4
 timeout 60 cat pipe.mp4 >"$scratch/read" &
-PATH=$with_ffmpeg expect_status 0 "$host" video run --trial 0 --out pipe.mp4
+PATH=$with_ffmpeg expect_status 0 "$host" video run --trial 0 --out pipe.mp4 --to 0.2
 [[ -p pipe.mp4 ]] || fail "the pipe was replaced"
 wait
 [[ $(cat read) == video && ! -e pipe.mp4.part ]] || fail "no video came through the pipe"
@@ -54,7 +54,7 @@ grep -q 'there is no ffmpeg on the path.*apt-get install ffmpeg' stderr || fail 
 printf '#!/bin/sh\nexit 1\n' >tools/ffmpeg
 PATH=$with_ffmpeg expect_status 3 "$host" video run --trial 0 --out none.mp4
 printf '#!/bin/sh\ncat >/dev/null\nexit 1\n' >tools/ffmpeg
-PATH=$with_ffmpeg expect_status 3 "$host" video run --trial 0 --out none.mp4
+PATH=$with_ffmpeg expect_status 3 "$host" video run --trial 0 --out none.mp4 --to 0.2
 grep -q 'ffmpeg failed' stderr || fail "$(cat stderr)"
 [[ ! -e none.mp4 && ! -e none.mp4.part ]] || fail "a failed video left files"
 
