@@ -39,42 +39,19 @@ expect_status 0 "$host" validate experiment.toml
 
 line='^experiment\.toml:[0-9]+:[0-9]+: '
 robot='scenario\.toml:[0-9]+:[0-9]+: robot 0 '
-expect_mistake "misspelt key" 's/^trials /trails /' '' "$line.*'trails'.*did you mean 'trials'"
-expect_mistake "parameter out of range" '/pure_pursuit/aparams = { lookahead_time = -1.0 }' '' "$line.*lookahead_time"
-expect_mistake "start inside a wall" '' 's/^start = \[0.5, 2.5/start = [2.0, 4.0/' "$robot.*inside 'pillar'"
+expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"
+expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
 
 # all commands read by one reader: the rest is asked of one
 calls=("experiment.toml --out out")
-expect_mistake "misspelt table" 's/global_planner/global_planer/' '' "$line.*'global_planer'.*did you mean 'global_planner'"
-expect_mistake "misspelt parameter" '/controller.dwa/aparams = { sim_tme = 1.0 }' '' "$line.*'sim_tme'.*dmrp.controller.dwa.*did you mean"
-expect_mistake "missing key" '/^plugins/d' '' "$line.*plugins"
-expect_mistake "missing table" '/^\[\[global_planner/,/^$/d' '' "$line.*global_planner"
-expect_mistake "wrong type" 's/^trials .*/trials = "three"/' '' "$line.*trials"
-expect_mistake "value out of range" 's/^trials .*/trials = 0/' '' "$line.*trials"
 expect_mistake "no TOML" 's/^trials .*/trials = = 3/' '' "$line"
 expect_mistake "unknown plugin" 's/planner.cbs/planner.csb/' '' "$line.*'dmrp.planner.csb'.*did you mean 'dmrp.planner.cbs'"
-expect_mistake "short name of a plugin" 's/dmrp.controller.dwa/DWA/' '' "$line.*'DWA'.*did you mean 'dmrp.controller.dwa'"
-expect_mistake "several names in use" 's/^use = "crossing"/use = ["crossing", "office"]/' '' "$line'use' takes one name: write one table"
-expect_mistake "list of values in params" '/controller.dwa/aparams = { sim_time = [1.0, 2.0] }' '' "$line'sim_time' must be one value, not an array.*sweep = \\{ sim_time"
-expect_mistake "plugin of another kind" 's/planner.cbs/controller.dwa/' '' "$line.*dmrp.controller.dwa is a"
 expect_mistake "missing library" 's/libdmrp_planners/libdmrp_planers/' '' "$line.*libdmrp_planers.so.*did you mean 'libdmrp_planners.so'"
-expect_mistake "missing library by its path" 's|libdmrp_planners|./libmine|' '' "$line.*libmine.so"
 expect_mistake "text as library" 's|libdmrp_planners|./libtext|' '' "$line.*libtext.so: is no shared object .*"
 expect_mistake "truncated library" 's|libdmrp_planners|./libtruncated|' '' "$line.*libtruncated.so: "
 expect_mistake "unknown scenario" 's/"crossing"$/"crosing"/' '' "$line.*'crosing'"
-expect_mistake "people without a model" '/pedestrian_model/d;/pedestrian\.social/d' '' "$line.*2 people.*pedestrian_model"
-expect_mistake "start too near to a wall" '' 's/^start = \[0.5, 2.5/start = [2.4, 3.6/' "$robot.*pillar.*clearance"
-expect_mistake "goal that cannot be reached" '' 's/^center_m.*/center_m = [5.0, 3.0]/;s/^size_m = \[0.6, 0.6\]/size_m = [0.4, 6.0]/' "$robot.*cannot reach its goal"
-expect_mistake "groups larger than their flow" '' 's/^people = .*/&\ngroup_size = 99/' "scenario\.toml:[0-9]+:[0-9]+: 'group_size' must be at most 'people', 2, not 99"
-expect_mistake "misspelt key of the scenario" '' 's/^size_m = \[8/siez_m = [8/' "scenario\.toml:[0-9]+:[0-9]+: .*'siez_m'.*did you mean 'size_m'"
 expect_mistake "more robots than there is room for" 's/^use = "crossing"/&\nrobots = 60/' '' "$line.*has room for [0-9]+ robots.*not 60"
-expect_mistake "nobody there" 's/^use = "crossing"/&\nrobots = 0/' 's/^people = .*/people = 0/' "$line.*'robots' must be at least 1"
 expect_mistake "a recording that is not there" '' '$a[[recording]]\nfile = "none.csv"' "scenario\.toml:[0-9]+:[0-9]+: no file 'none.csv'"
-expect_mistake "no room for a crowd" '' 's/^people = .*/people = 99\nstart = "from"/' "scenario\.toml:[0-9]+:[0-9]+: no room in region 'lower right' for 99 people"
-expect_mistake "no room along a way" '' 's/^people = .*/people = 200/' "scenario\.toml:[0-9]+:[0-9]+: no room along flow 'up and down the right side' for 200 people, for [0-9]+ at most\$"
-expect_mistake "a flow that leads nowhere" '' 's/^to = .*/to = "lower right"/' "scenario\.toml:[0-9]+:[0-9]+: flow 'up and down the right side' leads from region 'lower right' to itself"
-expect_mistake "a key of another table" '$a[simulation]\nactuation_latency_s = 0.1' '' "$line.*unknown key 'actuation_latency_s' in \[simulation\] \(it is a key of \[robot\]\)"
-expect_mistake "latency out of range" '$a[robot]\nactuation_latency_s = -1' '' "$line'actuation_latency_s' must be at least 0"
 
 # All mistakes of the experiment and its scenario in one go, each with its line and a caret under the place.
 sed 's/^trials .*/trials = "three"/;s/controller.dwa/controller.dwo/' "$here/crossing.toml" >experiment.toml
