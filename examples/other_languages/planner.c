@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 // The template's planner, prioritized planning, in plain C99 with the C headers alone. It makes the same plans: the
 // order in which its search looks at nodes is total, and the same in all three languages.
-#include <dmrp/dmrp.h>
+#include <dmrp/c_plugin.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define UNREACHABLE UINT32_MAX
 #define TOUCHING_CELLS 1.4142135623731  // discs on neighbouring cells can touch below sqrt(2) cells
@@ -422,39 +421,17 @@ static int32_t start(dmrp_instance* self, const dmrp_start* start) {
 static void destroy(dmrp_instance* self) {
   free(self);
 }
-static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
-  (void)self;
-  (void)host;
-  return DMRP_OK;
-}
-static void deinit(const dmrp_entry* self) {
-  (void)self;
-}
-static uint32_t plugin_count(const dmrp_entry* self) {
-  (void)self;
-  return 1;
-}
-static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
-  (void)self;
-  return index == 0 ? &prioritized : NULL;
-}
 
-static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* values,
-                      dmrp_plugin* out) {
-  (void)self;
-  if (strcmp(id, prioritized.id) != 0) {
-    host->set_error(host, "no plugin of that id in this library");
-    return DMRP_ERROR;
-  }
+static int32_t make(const dmrp_host* host, const dmrp_descriptor* plugin, const dmrp_params* values, dmrp_plugin* out) {
+  (void)plugin;
   out->self = malloc(sizeof(dmrp_instance));
   if (!out->self) return DMRP_OUT_OF_MEMORY;
   out->self->host = host;  // valid until destroy() returns
-  out->self->orders = DMRP_AT(dmrp_param_value, values->values, values->stride, 0)->integer;
+  out->self->orders = dmrp_param_of(values, "orders")->integer;
   out->table = &planner;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
-              descriptor,         create};
+DMRP_C_PLUGINS(make, &prioritized);

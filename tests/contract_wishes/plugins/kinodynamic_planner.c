@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 // A planner in C99 whose waypoints have velocities: each robot drives straight from goal to goal, speeding up and braking
 // within its limits, and passes a waypoint every quarter of a second.
-#include <dmrp/dmrp.h>
+#include <dmrp/c_plugin.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,27 +132,10 @@ static int32_t start(dmrp_instance* self, const dmrp_start* start) {
 static void destroy(dmrp_instance* self) {
   free(self);
 }
-static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
-  (void)self;
-  (void)host;
-  return DMRP_OK;
-}
-static void deinit(const dmrp_entry* self) {
-  (void)self;
-}
-static uint32_t plugin_count(const dmrp_entry* self) {
-  (void)self;
-  return 1;
-}
-static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
-  (void)self;
-  return index == 0 ? &kinodynamic : NULL;
-}
-static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* params,
-                      dmrp_plugin* out) {
-  (void)self;
+
+static int32_t make(const dmrp_host* host, const dmrp_descriptor* plugin, const dmrp_params* params, dmrp_plugin* out) {
+  (void)plugin;
   (void)params;
-  if (strcmp(id, kinodynamic.id) != 0) return DMRP_ERROR;
   out->self = (dmrp_instance*)malloc(sizeof(dmrp_instance));
   if (!out->self) return DMRP_OUT_OF_MEMORY;
   out->self->host = host;
@@ -162,5 +145,4 @@ static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char*
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
-              descriptor,         create};
+DMRP_C_PLUGINS(make, &kinodynamic);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 // A local controller in C99, without the C++ layer: it turns on the spot at a rate that is its only parameter.
-#include <dmrp/dmrp.h>
+#include <dmrp/c_plugin.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,38 +55,16 @@ static void destroy(dmrp_instance* self) {
   free(self);
 }
 
-static int32_t init(const dmrp_entry* self, const dmrp_host* host) {
-  (void)self;
+static int32_t make(const dmrp_host* host, const dmrp_descriptor* plugin, const dmrp_params* values, dmrp_plugin* out) {
   (void)host;
-  return DMRP_OK;
-}
-static void deinit(const dmrp_entry* self) {
-  (void)self;
-}
-static uint32_t plugin_count(const dmrp_entry* self) {
-  (void)self;
-  return 1;
-}
-static const dmrp_descriptor* descriptor(const dmrp_entry* self, uint32_t index) {
-  (void)self;
-  return index == 0 ? &turner : NULL;
-}
-
-static int32_t create(const dmrp_entry* self, const dmrp_host* host, const char* id, const dmrp_params* values,
-                      dmrp_plugin* out) {
-  (void)self;
-  if (strcmp(id, turner.id) != 0) {
-    host->set_error(host, "no plugin of that id in this library");
-    return DMRP_ERROR;
-  }
+  (void)plugin;
   out->self = malloc(sizeof(dmrp_instance));
   if (!out->self) return DMRP_OUT_OF_MEMORY;
-  out->self->rate = DMRP_AT(dmrp_param_value, values->values, values->stride, 0)->number;
+  out->self->rate = dmrp_param_of(values, "rate")->number;
   out->table = &controller;
   out->start = start;
   out->destroy = destroy;
   return DMRP_OK;
 }
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
-              descriptor,         create};
+DMRP_C_PLUGINS(make, &turner);
