@@ -167,6 +167,7 @@ dmrp_person Population::person_at(std::uint32_t slot, dmrp_vec2 position) const 
   if (group.who.id != 0) person.group = static_cast<std::uint32_t>(group.who.id + group.generation * group_ids_);
   person.position = position;
   person.radius_m = settings_.radius_m;
+  person.reaction = flows_[group.who.flow].reaction;
   Stream speeds(seed_, "population.speed", group.who.first_slot, group.generation);
   person.desired_speed =
       speeds.truncated_normal(settings_.speed_mean, settings_.speed_sd, settings_.speed_min, settings_.speed_max);

@@ -3,6 +3,7 @@
 // Plain data, metres and radians in the world frame; the host parses scenario.toml into it.
 #pragma once
 
+#include <dmrp/person.h>
 #include <dmrp/values.h>
 
 #include <cstdint>
@@ -58,6 +59,7 @@ struct Flow {
   FlowStart start = FlowStart::along;
   bool respawn = true;           // each person who leaves is replaced by a new one in the first region
   std::uint32_t group_size = 1;  // people per group; the last group is smaller if `people` is not a multiple
+  std::uint32_t reaction = DMRP_REACTION_UNSPECIFIED;  // to robots, of each of the people
 };
 
 // Body radius and walking speed of people; the speed is truncated normal. The body is RiMEA's, 40 cm wide (guideline

@@ -30,7 +30,7 @@
 
 namespace dmrp::core {
 
-inline constexpr std::uint32_t trace_format_version = 3;
+inline constexpr std::uint32_t trace_format_version = 4;
 inline constexpr const char* trace_topic = "dmrp/trace";  // of the channel in a file
 
 enum class TraceRecordKind : std::uint8_t {

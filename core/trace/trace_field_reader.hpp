@@ -36,8 +36,6 @@ template <>
 inline constexpr std::size_t least_trace_bytes<dmrp_statistic> = 12;
 template <>
 inline constexpr std::size_t least_trace_bytes<TraceRoute> = 16 + 8;
-template <>
-inline constexpr std::size_t least_trace_bytes<dmrp_task_event> = 16 + 12 + 8;
 
 // All functions throw TraceError.
 class TraceFieldReader {

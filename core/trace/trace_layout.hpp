@@ -55,7 +55,6 @@ void fields(auto& io, Of<dmrp_grid> auto& grid) {
   io.optional_array(grid.free, cells);
   io.optional_array(grid.edges, cells);
   io.optional_array(grid.clearance, cells);
-  io.optional_array(grid.edge_cost, 8 * cells);
 }
 
 void fields(auto& io, Of<TraceWorld> auto& content) {
@@ -93,11 +92,6 @@ void fields(auto& io, Of<TracePlan> auto& content) {
   io.structs(plan.statistics, plan.statistic_count, plan.statistic_stride);
 }
 
-void fields(auto& io, Of<dmrp_task_event> auto& event) {
-  io.values(event.t_ns, event.task, event.kind, event.robot, event.goal_index);
-  io.elements(event.errands, event.errand_count, event.errand_stride);
-}
-
 // Robots, people and contacts are most of a trace. They are copied in their memory layout, which has no padding.
 void fields(auto& io, Of<TraceSample> auto& content) {
   auto& sample = content.sample;
@@ -108,7 +102,6 @@ void fields(auto& io, Of<TraceSample> auto& content) {
   io.elements(sample.calls, sample.call_count, sample.call_stride);
   io.elements(sample.events, sample.event_count, sample.event_stride);
   io.structs(content.routes, content.route_count, content.route_stride);
-  io.structs(sample.task_events, sample.task_event_count, sample.task_event_stride);
 }
 
 void fields(auto& io, Of<TraceScan> auto& scan) {

@@ -135,8 +135,6 @@ void TraceReader::read_sample(RecordCursor& in) {
     if (call.robot >= world_.robot_count && call.robot != DMRP_ALL_ROBOTS) in.fail("a call for an unknown robot");
   for (const dmrp_robot_event& event : std::span(sample_.events, sample_.event_count))
     if (event.robot >= world_.robot_count || !is_robot_or_nobody(event.other)) in.fail("an event of an unknown robot");
-  for (const dmrp_task_event& event : std::span(sample_.task_events, sample_.task_event_count))
-    if (!is_robot_or_nobody(event.robot)) in.fail("a task of an unknown robot");
   read_routes(in, read);
 }
 

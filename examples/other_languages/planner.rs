@@ -375,8 +375,11 @@ static DESCRIPTOR: Shared<dmrp_descriptor> = Shared(dmrp_descriptor {
     version: text(b"0.1.0\0"),
     vendor: text(b"Example\0"),
     license: text(b"MIT\0"),
+    url: std::ptr::null(),
+    manual_url: std::ptr::null(),
     summary: text(b"robots plan one after the other, around the paths of those before them\0"),
     source: text(b"Erdmann, Lozano-Perez: On multiple moving objects, Algorithmica 2 (1987)\0"),
+    features: std::ptr::null(),
     needed: std::ptr::null(),
     uses: std::ptr::null(),
     needed_count: 0,
@@ -393,7 +396,6 @@ static INTERFACE: dmrp_global_planner = dmrp_global_planner {
     struct_size: std::mem::size_of::<dmrp_global_planner>() as u32,
     reserved: 0,
     plan: Some(plan),
-    assign: None,
 };
 
 fn set_error(host: *const dmrp_host, text: &str) {

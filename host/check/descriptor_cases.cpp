@@ -19,9 +19,9 @@ bool is_like(const std::string& text, const char* pattern) {
   return std::regex_match(text, std::regex(pattern));
 }
 
-constexpr std::uint32_t flags_of_all = DMRP_FLAG_PROCESSES | DMRP_FLAG_RESIDENT_MEMORY | DMRP_FLAG_PARALLEL;
-constexpr std::uint32_t flags_of_planners = DMRP_FLAG_UNCOORDINATED | DMRP_FLAG_WINDOWED | DMRP_FLAG_ASSIGNS;
-constexpr std::uint32_t flags_of_controllers = DMRP_FLAG_CENTRAL | DMRP_FLAG_BACKWARDS | DMRP_FLAG_BATCHED;
+constexpr std::uint32_t flags_of_all = DMRP_FLAG_PROCESSES | DMRP_FLAG_RESIDENT_MEMORY;
+constexpr std::uint32_t flags_of_planners = DMRP_FLAG_UNCOORDINATED | DMRP_FLAG_WINDOWED;
+constexpr std::uint32_t flags_of_controllers = DMRP_FLAG_CENTRAL | DMRP_FLAG_BACKWARDS;
 constexpr std::uint32_t known_flags = flags_of_all | flags_of_planners | flags_of_controllers;
 
 std::uint32_t flags_for(std::uint32_t kind) {

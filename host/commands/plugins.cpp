@@ -29,6 +29,9 @@ void print_plugin(const PluginInfo& info) {
   fmt::print("  {}  {} {}  ({})\n", info.id, info.name, info.version, kind_name(info.kind));
   if (!info.summary.empty()) fmt::print("      {}\n", info.summary);
   if (!info.source.empty()) fmt::print("      source: {}\n", info.source);
+  if (!info.url.empty()) fmt::print("      url: {}\n", info.url);
+  if (!info.manual_url.empty()) fmt::print("      manual: {}\n", info.manual_url);
+  if (!info.features.empty()) fmt::print("      features: {}\n", fmt::join(info.features, ", "));
   if (!info.needs.empty()) fmt::print("      needs: {}\n", fmt::join(info.needs, ", "));
   if (!info.uses.empty()) fmt::print("      uses: {}\n", fmt::join(info.uses, ", "));
   for (const MetricValueSpec& value : info.values)

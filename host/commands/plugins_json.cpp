@@ -93,9 +93,10 @@ Json connectivity_name(std::uint32_t connectivity) {
 }  // namespace
 
 Json plugin_as_json(const PluginInfo& info) {
-  Json out = {{"id", info.id},           {"kind", kind_name(info.kind)}, {"name", info.name},
-              {"version", info.version}, {"vendor", info.vendor},        {"license", info.license},
-              {"summary", info.summary}, {"source", info.source},        {"requires", info.needs},
+  Json out = {{"id", info.id},           {"kind", kind_name(info.kind)},  {"name", info.name},
+              {"version", info.version}, {"vendor", info.vendor},         {"license", info.license},
+              {"url", info.url},         {"manual_url", info.manual_url}, {"summary", info.summary},
+              {"source", info.source},   {"features", info.features},     {"requires", info.needs},
               {"uses", info.uses}};
   out["parameters"] = Json::array();
   for (const ParameterSpec& spec : info.parameters) out["parameters"].push_back(parameter(spec));
@@ -104,19 +105,14 @@ Json plugin_as_json(const PluginInfo& info) {
   out["connectivity"] = connectivity_name(info.connectivity);
   out["channels"] = bits(info.channels, {{DMRP_CHANNEL_PEOPLE, "people"},
                                          {DMRP_CHANNEL_CALLS, "calls"},
-                                         {DMRP_CHANNEL_SCANS, "scans"},
                                          {DMRP_CHANNEL_RECOVERIES, "recoveries"},
-                                         {DMRP_CHANNEL_ROUTES, "routes"},
-                                         {DMRP_CHANNEL_TASKS, "tasks"}});
+                                         {DMRP_CHANNEL_ROUTES, "routes"}});
   out["flags"] = bits(info.flags, {{DMRP_FLAG_UNCOORDINATED, "uncoordinated"},
                                    {DMRP_FLAG_CENTRAL, "central"},
                                    {DMRP_FLAG_BACKWARDS, "backwards"},
                                    {DMRP_FLAG_PROCESSES, "processes"},
                                    {DMRP_FLAG_RESIDENT_MEMORY, "resident_memory"},
-                                   {DMRP_FLAG_WINDOWED, "windowed"},
-                                   {DMRP_FLAG_ASSIGNS, "assigns"},
-                                   {DMRP_FLAG_PARALLEL, "parallel"},
-                                   {DMRP_FLAG_BATCHED, "batched"}});
+                                   {DMRP_FLAG_WINDOWED, "windowed"}});
   out["kinematics"] = bits(info.kinematics, {{1u << DMRP_KINEMATICS_DIFFERENTIAL, "differential"},
                                              {1u << DMRP_KINEMATICS_HOLONOMIC, "holonomic"},
                                              {1u << DMRP_KINEMATICS_ACKERMANN, "ackermann"}});

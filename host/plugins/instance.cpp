@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "host/plugins/calls/output.hpp"
@@ -21,8 +22,7 @@ std::vector<std::string> declared_extensions(const PluginInfo& info) {
 }
 
 // The first function that a kind's table lacks; "" if it is whole.
-std::string missing_function(const dmrp_global_planner& table, const PluginInfo& info) {
-  if (info.has_flag(DMRP_FLAG_ASSIGNS) && !table.assign) return "assign (its descriptor has DMRP_FLAG_ASSIGNS)";
+std::string missing_function(const dmrp_global_planner& table, const PluginInfo&) {
   return table.plan ? "" : "plan";
 }
 std::string missing_function(const dmrp_local_controller& table, const PluginInfo& info) {
@@ -68,6 +68,21 @@ std::string missing_part(const dmrp_plugin& plugin, const PluginInfo& info) {
   return missing_in_interface(plugin.table, info);
 }
 
+// A later minor version may give it a meaning that this host does not know.
+void refuse_reserved(const char* field, std::uint32_t value, const CallSite& site) {
+  if (value != 0)
+    throw PluginFault(fault_kind::abi_breach, site,
+                      fmt::format("returned OK with {} in dmrp_plugin.{}, which must be 0", value, field));
+}
+
+// All tables begin alike.
+std::uint32_t reserved_in(const void* table) {
+  static_assert(offsetof(dmrp_global_planner, reserved) == offsetof(dmrp_metric, reserved) &&
+                offsetof(dmrp_local_controller, reserved) == offsetof(dmrp_pedestrian_model, reserved) &&
+                offsetof(dmrp_global_planner, reserved) == offsetof(dmrp_local_controller, reserved));
+  return static_cast<const dmrp_metric*>(table)->reserved;
+}
+
 }  // namespace
 
 Instance::Instance(const Library& library, const PluginUse& use, std::int32_t robot, CallGuard& guard, LogSink log,
@@ -86,6 +101,8 @@ Instance::Instance(const Library& library, const PluginUse& use, std::int32_t ro
   if (const std::string missing = missing_part(plugin, use.info); !missing.empty())
     throw PluginFault(fault_kind::abi_breach, site("create", 0),
                       "returned OK but did not fill in dmrp_plugin." + missing);
+  refuse_reserved("reserved", plugin.reserved, site("create", 0));
+  refuse_reserved("table->reserved", reserved_in(plugin.table), site("create", 0));
   plugin_ = plugin;
 }
 

@@ -30,7 +30,14 @@ std::vector<std::string> escaped_texts(const char* const* texts, std::uint32_t c
   return out;
 }
 
+// A later minor version may give it a meaning that this host does not know.
+void refuse_reserved(std::uint32_t reserved, const std::string& owner) {
+  if (reserved != 0)
+    throw std::runtime_error(owner + " has " + std::to_string(reserved) + " in a reserved field, which must be 0");
+}
+
 ParameterSpec copy_parameter(const dmrp_param_spec& c) {
+  refuse_reserved(c.reserved, "parameter '" + escaped(c.key) + "'");
   ParameterSpec out;
   out.fallback = {text_of(c.key), c.type, c.integer, c.number, text_of(c.text), {}, {}};
   if (c.type == DMRP_PARAM_DOUBLE_ARRAY) out.fallback.numbers.assign(c.numbers, c.numbers + c.count);
@@ -123,8 +130,11 @@ void visit_fields(Visit&& visit) {
   visit("version", &PluginInfo::version);
   visit("vendor", &PluginInfo::vendor);
   visit("license", &PluginInfo::license);
+  visit("url", &PluginInfo::url);
+  visit("manual_url", &PluginInfo::manual_url);
   visit("summary", &PluginInfo::summary);
   visit("source", &PluginInfo::source);
+  visit("features", &PluginInfo::features);
   visit("requires", &PluginInfo::needs);
   visit("uses", &PluginInfo::uses);
   visit("parameters", &PluginInfo::parameters);
@@ -197,6 +207,7 @@ PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
   if (!has_v1_0<dmrp_descriptor>(theirs.struct_size))
     throw std::runtime_error("has a descriptor that is shorter than v1.0's");
   const dmrp_descriptor c = copy_struct(theirs);
+  refuse_reserved(c.reserved, "the descriptor of '" + escaped(c.id) + "'");
   PluginInfo out;
   out.id = text_of(c.id);
   out.kind = c.kind;
@@ -204,8 +215,11 @@ PluginInfo copy_descriptor(const dmrp_descriptor& theirs) {
   out.version = escaped(c.version);
   out.vendor = escaped(c.vendor);
   out.license = escaped(c.license);
+  out.url = escaped(c.url);
+  out.manual_url = escaped(c.manual_url);
   out.summary = escaped(c.summary);
   out.source = escaped(c.source);
+  for (const char* const* word = c.features; word && *word; ++word) out.features.push_back(escaped(*word));
   out.needs = escaped_texts(c.needed, c.needed_count);
   out.uses = escaped_texts(c.uses, c.uses_count);
   out.parameters = copy_all(c.params, c.param_count, c.param_stride, "parameters", copy_parameter);

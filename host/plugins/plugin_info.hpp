@@ -48,8 +48,11 @@ struct PluginInfo {
   std::string version;
   std::string vendor;
   std::string license;
+  std::string url;
+  std::string manual_url;
   std::string summary;
   std::string source;
+  std::vector<std::string> features;
   std::vector<std::string> needs;  // extensions
   std::vector<std::string> uses;
   std::vector<ParameterSpec> parameters;

@@ -26,7 +26,7 @@ inline constexpr std::size_t size_v1_0 = 0;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_entry> = 56;
 template <>
-inline constexpr std::size_t size_v1_0<dmrp_descriptor> = 120;
+inline constexpr std::size_t size_v1_0<dmrp_descriptor> = 144;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_planner_traits> = 8;
 template <>
@@ -38,7 +38,7 @@ inline constexpr std::size_t size_v1_0<dmrp_param_spec> = 104;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_metric_value_spec> = 40;
 template <>
-inline constexpr std::size_t size_v1_0<dmrp_global_planner> = 24;
+inline constexpr std::size_t size_v1_0<dmrp_global_planner> = 16;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_local_controller> = 32;
 template <>
@@ -66,6 +66,7 @@ inline constexpr std::size_t size_v1_0<dmrp_walking_grid_request> = 24;
 template <class Struct>
 constexpr bool has_v1_0(std::size_t bytes) {
   static_assert(size_v1_0<Struct> > 0 && size_v1_0<Struct> <= sizeof(Struct));
+  static_assert(size_v1_0<Struct> == sizeof(Struct) || DMRP_ABI_MINOR > 0, "this is v1.0");
   return bytes >= size_v1_0<Struct>;
 }
 

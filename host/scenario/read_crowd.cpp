@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::int64_t max_people_of_flow = 10'000;  // of a flow
 const std::vector<std::string> start_choices = {"along", "from"};
+// In the order of DMRP_REACTION_*.
+const std::vector<std::string> reaction_choices = {"unspecified", "regular", "impassive",  "surprised",
+                                                   "curious",     "scared",  "threatening"};
 
 Settings people_settings(core::PeopleSettings& to) {
   return {positive("radius_m", to.radius_m, 10.0), positive("speed_mean", to.speed_mean, 100.0),
@@ -115,6 +118,12 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     mistakes.attempt([&] {
       if (const auto respawn = table.find("respawn")) flow.respawn = respawn->boolean();
     });
+    mistakes.attempt([&] {
+      if (const auto reaction = table.find("reaction"))
+        flow.reaction = static_cast<std::uint32_t>(
+            std::find(reaction_choices.begin(), reaction_choices.end(), reaction->choice(reaction_choices)) -
+            reaction_choices.begin());
+    });
     mistakes.end();
     out.scenario.flows.push_back(std::move(flow));
     out.flows.push_back(table.position());
@@ -140,7 +149,8 @@ std::vector<TomlKey> flow_keys() {
           {"people", range_text(0, max_people_of_flow)},
           {"start", choices_text(start_choices)},
           {"respawn", boolean_text},
-          {"group_size", range_text(1, max_people_of_flow)}};
+          {"group_size", range_text(1, max_people_of_flow)},
+          {"reaction", choices_text(reaction_choices)}};
 }
 
 void read_crowd(const TomlTable& root, ScenarioFile& out) {

@@ -277,7 +277,6 @@ class Run {
     sample.routes = routes_.data();
     sample.route_count = static_cast<std::uint32_t>(routes_.size());
     sample.route_stride = sizeof(dmrp_route);
-    sample.task_event_stride = sizeof(dmrp_task_event);
     trace_.sample(sample);
     events_.clear();
   }

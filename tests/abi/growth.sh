@@ -16,6 +16,6 @@ expect_notice() {
 expect_notice '/ goal_stride$/d' 'dmrp_planning_robot points to 1 arrays of structs without struct_size, with 0 strides
 dmrp_observation points to 2 arrays of structs without struct_size, with 1 strides
 dmrp_robot points to 1 arrays of structs without struct_size, with 0 strides'
-expect_notice '/^dmrp_task_event /,/^$/s/const dmrp_goal[*] errands/dmrp_goal goal/' \
-  'dmrp_task_event.goal embeds dmrp_goal, which may grow'
+expect_notice '/^dmrp_route /,/^$/s/const dmrp_path[*] path/dmrp_path path/' \
+  'dmrp_route.path embeds dmrp_path, which may grow'
 echo "all structs can grow"

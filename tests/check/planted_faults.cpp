@@ -272,7 +272,7 @@ class Metric final : public Planted<dmrp::Metric> {
                                          dmrp::Subjects::system, "a number");
   }
 
-  void begin(const dmrp_plan* plan) override { has_plan_ = plan != nullptr; }
+  void begin(const dmrp::MetricTrial& trial) override { has_plan_ = trial.plan != nullptr; }
   void observe(const dmrp::Sample& sample) override {
     if (has("has room for 100") && sample.people.size() > 100) crash();
     if (has("takes every contact"))

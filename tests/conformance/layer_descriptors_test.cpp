@@ -56,7 +56,7 @@ TEST_CASE("the entry says what it was built with and lists the plugins in their 
   REQUIRE(dmrp_entry_v1.plugin_count(&dmrp_entry_v1) == 7);
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0)->id == std::string("sample.controller"));
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 5)->id == std::string("sample.unmakeable"));
-  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 6)->id == std::string("sample.assigning"));
+  CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 6)->id == std::string("sample.windowed"));
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 7) == nullptr);
   CHECK(dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0) == dmrp_entry_v1.descriptor(&dmrp_entry_v1, 0));  // static data
 }
@@ -87,9 +87,9 @@ TEST_CASE("a descriptor carries all that describe() said") {
   CHECK(traits<dmrp_planner_traits>(planner).connectivity == DMRP_CONNECTIVITY_8);
   CHECK(planner.flags == DMRP_FLAG_UNCOORDINATED);
   CHECK(planner.vendor == std::string());  // never NULL
-  const dmrp_descriptor& assigning = descriptor("sample.assigning");
-  CHECK(assigning.flags == DMRP_FLAG_ASSIGNS);
-  CHECK(traits<dmrp_planner_traits>(assigning).connectivity == DMRP_CONNECTIVITY_4);
+  const dmrp_descriptor& windowed = descriptor("sample.windowed");
+  CHECK(windowed.flags == DMRP_FLAG_WINDOWED);
+  CHECK(traits<dmrp_planner_traits>(windowed).connectivity == DMRP_CONNECTIVITY_4);
   CHECK(descriptor("sample.pedestrian").kind == DMRP_KIND_PEDESTRIAN_MODEL);
   CHECK(descriptor("sample.pedestrian").traits == nullptr);
 

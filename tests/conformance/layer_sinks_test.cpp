@@ -115,8 +115,6 @@ struct Trial {
   PathAlongX way{2};
   Longer<dmrp_path> path{way.c()};
   std::vector<Longer<dmrp_route>> routes{{{1, DMRP_PATH_CONTINUES, &path.known}}};
-  std::vector<Longer<dmrp_goal>> errands{2};
-  std::vector<Longer<dmrp_task_event>> task_events{2};
   dmrp_sample sample{};
   std::vector<Longer<dmrp_robot_end>> ends{2};
   dmrp_trial_end end{};
@@ -153,14 +151,6 @@ struct Trial {
     sample.routes = &routes.front().known;
     sample.route_count = 1;
     sample.route_stride = sizeof(routes.front());
-    errands[1].known.pose.x = 12.0;
-    task_events[1].known.task = 5;
-    task_events[1].known.errand_count = 2;
-    task_events[1].known.errand_stride = sizeof(errands.front());
-    task_events[1].known.errands = &errands.front().known;
-    sample.task_events = &task_events.front().known;
-    sample.task_event_count = 2;
-    sample.task_event_stride = sizeof(task_events.front());
     end = {sizeof(end), DMRP_ENDING_ARRIVED, 3'000'000'000, &ends.front().known, 2, sizeof(ends.front())};
   }
   Trial(const Trial&) = delete;
@@ -186,75 +176,22 @@ TEST_CASE("a planner reads the problem by its strides and writes into the sink")
   CHECK(sink.paths == std::vector<std::vector<double>>{{0.0, 0.0, 5.0, 6.0}, {1.0, 1.0, 5.0}});
   CHECK(sink.flags == std::vector<std::uint32_t>{0, 0});
   CHECK(sink.statistics == std::vector<std::string>{"cost=3.000000"});
-  CHECK(sample.as<dmrp_global_planner>().assign == nullptr);
 
   PlanSink of_window;
   REQUIRE(plan(Sample("sample.planner", "give partial paths"), of_window) == DMRP_OK);
   CHECK(of_window.flags == std::vector<std::uint32_t>{DMRP_PATH_PARTIAL, DMRP_PATH_PARTIAL});
 }
 
-TEST_CASE("a planner reads the window, what is committed, and how much time it has left") {
+TEST_CASE("a planner reads the window and how much time it has left") {
   Problem problem;
   problem.c.window_steps = 12;
-  problem.c.committed_until_ns = 1'500'000'000;
-  Sample sample("sample.assigning", "nothing");
+  Sample sample("sample.windowed", "nothing");
   sample.host.budget_left_ns = 250'000'000;
   PlanSink sink;
   REQUIRE(sample.as<dmrp_global_planner>().plan(sample.c.self, &problem.c, &sink.c) == DMRP_OK);
-  CHECK(seen().numbers == std::vector<double>{12.0, 1.5, 0.25});
-  const Sample not_for_it("sample.assigning", "unsupported");
+  CHECK(seen().numbers == std::vector<double>{12.0, 0.25});
+  const Sample not_for_it("sample.windowed", "unsupported");
   CHECK(not_for_it.as<dmrp_global_planner>().plan(not_for_it.c.self, &problem.c, &sink.c) == DMRP_UNSUPPORTED);
-}
-
-namespace {
-
-// Two robots, two tasks of one and two errands, and a sink that answers as it is told.
-struct Tasks {
-  Problem problem;
-  std::vector<Longer<dmrp_goal>> errands{3};
-  std::vector<Longer<dmrp_task>> tasks{2};
-  std::vector<std::pair<std::uint32_t, std::uint64_t>> given;
-  std::int32_t answer = DMRP_OK;
-  dmrp_assignment c{};
-  dmrp_assignment_sink sink{};
-
-  Tasks() {
-    for (std::size_t i = 0; i < 3; ++i) errands[i].known.pose.x = 10.0 + static_cast<double>(i);
-    tasks[0].known = {8, 0, 1, sizeof(errands.front()), &errands[0].known};
-    tasks[1].known = {9, 5, 2, sizeof(errands.front()), &errands[1].known};
-    c = {sizeof(c), 2, problem.c.robots, problem.c.robot_stride, sizeof(tasks.front()), &tasks.front().known,
-         2,         0, 2'000'000'000,    &problem.grid};
-    sink = {sizeof(sink), 0, this, [](dmrp_assignment_sink* self, std::uint32_t robot, std::uint64_t task) {
-              auto& to = *static_cast<Tasks*>(self->context);
-              to.given.emplace_back(robot, task);
-              return to.answer;
-            }};
-  }
-  Tasks(const Tasks&) = delete;
-  Tasks& operator=(const Tasks&) = delete;
-};
-
-}  // namespace
-
-TEST_CASE("a planner that assigns reads robots and tasks by their strides, and gives tasks to robots") {
-  Tasks tasks;
-  const auto assign = [&](const Sample& s) {
-    const auto& table = s.as<dmrp_global_planner>();
-    REQUIRE(table.struct_size == sizeof(dmrp_global_planner));
-    REQUIRE(table.assign != nullptr);
-    return table.assign(s.c.self, &tasks.c, &tasks.sink);
-  };
-  check_outcomes("sample.assigning", true, assign);
-  tasks.given.clear();
-  Sample sample("sample.assigning", "nothing");
-  REQUIRE(assign(sample) == DMRP_OK);
-  CHECK(seen().numbers == std::vector<double>{2.0, 7.0, 2.0, 8.0, 10.0, 9.0, 11.0, 12.0});
-  CHECK(tasks.given == std::vector<std::pair<std::uint32_t, std::uint64_t>>{{0, 9}});
-  tasks.answer = DMRP_ERROR;
-  CHECK(assign(sample) == DMRP_ERROR);
-  CHECK(sample.host.error == "the host refused a task for robot 0");
-  tasks.answer = DMRP_OUT_OF_MEMORY;
-  CHECK(assign(sample) == DMRP_OUT_OF_MEMORY);
 }
 
 TEST_CASE("what the host refuses of a plan ends the call with a text, what it has no memory for with that status") {
@@ -315,8 +252,7 @@ TEST_CASE("a metric sees plan, samples and end, and its values reach the sink as
   REQUIRE(begin(sample) == DMRP_OK);
   CHECK(seen().numbers == std::vector<double>{4.0});
   REQUIRE(observe(sample) == DMRP_OK);
-  CHECK(seen().numbers ==
-        std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0, 0.0, 5.0, 0.0, 12.0});
+  CHECK(seen().numbers == std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0});
   sink.said.clear();
   REQUIRE(finish(sample) == DMRP_OK);
   CHECK(sink.said == std::vector<std::string>{"plain 0 0 - 30", "timed 1 1 - -", "curved 2 12 - 10", "curved 0 0 5 20",

@@ -196,27 +196,17 @@ class SamplePlanner final : public dmrp::GlobalPlanner {
   }
 };
 
-// Gives the last task to robot 0.
-class SampleAssigning final : public dmrp::AssigningPlanner {
+class SampleWindowed final : public dmrp::GlobalPlanner {
  public:
   static dmrp::Descriptor describe() {
-    return dmrp::Descriptor("sample.assigning", "Sample assigning", "1.0.0").connectivity(DMRP_CONNECTIVITY_4);
+    return dmrp::Descriptor("sample.windowed", "Sample windowed", "1.0.0")
+        .connectivity(DMRP_CONNECTIVITY_4)
+        .flags(DMRP_FLAG_WINDOWED);
   }
   dmrp::Param<std::string> does = param("does", "nothing");
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink&) override {
-    seen().numbers = {1.0 * problem.window_steps, dmrp::seconds(problem.committed_until_ns),
-                      dmrp::seconds(host().budget_left_ns())};
-    return leave(does);
-  }
-  dmrp::Status assign(const dmrp::Assignment& problem, dmrp::AssignmentSink& sink) override {
-    seen().numbers = {dmrp::seconds(problem.now_ns), 1.0 * problem.grid.width,
-                      static_cast<double>(problem.robots.size())};
-    for (const dmrp::Task& task : problem.tasks) {
-      seen().numbers.push_back(static_cast<double>(task.id));
-      for (const dmrp::Goal& errand : dmrp::errands(task)) seen().numbers.push_back(errand.pose.x);
-    }
-    sink.give(0, problem.tasks[problem.tasks.size() - 1].id);
+    seen().numbers = {1.0 * problem.window_steps, dmrp::seconds(host().budget_left_ns())};
     return leave(does);
   }
 };
@@ -246,8 +236,8 @@ class SampleMetric final : public dmrp::Metric {
   }
   dmrp::Param<std::string> does = param("does", "nothing");
 
-  void begin(const dmrp_plan* plan) override {
-    seen().numbers = {plan ? static_cast<double>(dmrp::Plan(*plan).path(1).size()) : -1.0};
+  void begin(const dmrp::MetricTrial& trial) override {
+    seen().numbers = {trial.plan ? static_cast<double>(dmrp::Plan(*trial.plan).path(1).size()) : -1.0};
     leave(does);
   }
   void observe(const dmrp::Sample& sample) override {
@@ -259,10 +249,6 @@ class SampleMetric final : public dmrp::Metric {
     for (const dmrp::RobotEvent& event : sample.events) seen().numbers.push_back(1.0 * event.detail);
     for (const dmrp::Route& route : sample.routes)
       for (const dmrp::Waypoint& waypoint : dmrp::Path(*route.path)) seen().numbers.push_back(waypoint.x);
-    for (const dmrp::TaskEvent& event : sample.task_events) {
-      seen().numbers.push_back(static_cast<double>(event.task));
-      for (const dmrp::Goal& errand : dmrp::errands(event)) seen().numbers.push_back(errand.pose.x);
-    }
     leave(does);
   }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {
@@ -336,4 +322,4 @@ std::int32_t Sample::start(std::uint64_t seed, std::int32_t robot) const {
 using namespace dmrp::test;
 
 DMRP_PLUGINS(SampleController, SampleCentral, SamplePlanner, SamplePedestrians, SampleMetric, SampleThatCannotBeMade,
-             SampleAssigning)
+             SampleWindowed)

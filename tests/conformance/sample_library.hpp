@@ -10,7 +10,7 @@
 #include <vector>
 
 // As exported by a library. Holds sample.controller, sample.central, sample.planner, sample.pedestrian, sample.metric,
-// sample.unmakeable and sample.assigning; their parameter `does` determines their calls: see sample_library.cpp.
+// sample.unmakeable and sample.windowed; their parameter `does` determines their calls: see sample_library.cpp.
 extern "C" const dmrp_entry dmrp_entry_v1;
 
 // An extension of the tests' own, which the C++ layer does not know.

@@ -66,8 +66,7 @@ World::World(const std::vector<std::string>& map, std::size_t count) : robot_dat
            {0.0, 0.0},
            free_.data(),
            edges_.data(),
-           clearance_.data(),
-           nullptr};
+           clearance_.data()};
   for (std::size_t i = 0; i < count; ++i) {
     robot_data[i].limits.struct_size = sizeof(dmrp_limits);
     robot_data[i].limits.v_max = 1.0;

@@ -117,7 +117,7 @@ function checkChannels(trace) {
     topics.add(channel.topic);
     if (channel.topic === 'dmrp/trace') {
       assert.equal(channel.messageEncoding, 'dmrp');
-      assert.equal(channel.metadata.get('version'), '3');
+      assert.equal(channel.metadata.get('version'), '4');
       continue;
     }
     const schema = trace.reader.schemasById.get(channel.schemaId);

@@ -37,7 +37,7 @@ class SpeedNearPeople final : public dmrp::Metric {
 
   // Metrics run over the trace after the trial, live and stored alike: begin(), observe() for each sample, finish().
   // The plan is nullptr if planning failed. Reset all state here: an instance measures many trials.
-  void begin(const dmrp_plan* /*plan*/) override {
+  void begin(const dmrp::MetricTrial&) override {
     encounters_.assign(world().robots().size(), {});
     closest_ = {};
   }

@@ -239,17 +239,16 @@ class PrioritizedPlanner final : public dmrp::GlobalPlanner {
   }
 
   // The first waypoint is the robot's start, at the moment when the plan takes effect; one more follows for each step,
-  // also for a wait, which repeats its cell. The heading is NaN: any. After the last waypoint the robot stays.
+  // also for a wait, which repeats its cell. After the last waypoint the robot stays.
   static std::vector<dmrp::Waypoint> waypoints_of(const dmrp::PlanningProblem& problem,
                                                   const dmrp::PlanningRobot& robot, const Steps& steps) {
-    constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
     const toolkit::GridView grid(*robot.grid);
     std::vector<dmrp::Waypoint> waypoints;
     for (const Step& step : steps) {
       const dmrp::Vec2 at = grid.center(step.cell);
       const std::int64_t t_ns =
           problem.effective_from_ns + static_cast<std::int64_t>(waypoints.size()) * problem.step_duration_ns;
-      waypoints.push_back({at.x, at.y, any_heading, t_ns, robot.first_goal_index + step.goal, 0});
+      waypoints.push_back(dmrp::waypoint(at.x, at.y, t_ns, robot.first_goal_index + step.goal));
     }
     return waypoints;
   }

@@ -97,10 +97,6 @@ class MetricCalls {
     sample.event_count = static_cast<std::uint32_t>(events.size());
     sample.event_stride = inputs_.stride<dmrp_robot_event>();
     sample.route_stride = inputs_.stride<dmrp_route>();
-    const std::vector<dmrp_task_event> task_events = task_events_of(world);
-    sample.task_events = inputs_.array(task_events.data(), task_events.size());
-    sample.task_event_count = static_cast<std::uint32_t>(task_events.size());
-    sample.task_event_stride = inputs_.stride<dmrp_task_event>();
     const dmrp_sample* const grown = inputs_.one(sample);
     inputs_.seal();
     measurement_.observe(*grown);
@@ -116,20 +112,6 @@ class MetricCalls {
     if (step_ > 0 && step_ <= DMRP_ROBOT_EVENT_RUNS_ON && robot_count_ > 0)
       events.push_back({static_cast<std::uint32_t>(step_), 0, before_ns, 0, DMRP_NOBODY});
     if (stage_.settings.unknown_kinds) events.push_back({unknown_kind, 0, world.t_ns(), 7, 0});
-    return events;
-  }
-
-  // One event of each kind of a task of one errand.
-  std::vector<dmrp_task_event> task_events_of(const core::World& world) {
-    std::vector<dmrp_task_event> events;
-    if (stage_.settings.fails_to_plan || robot_count_ == 0) return events;
-    const dmrp_goal errand = {world.robots()[0].pose, 0.2, 0.3, 0.1, 0};
-    const auto add = [&](std::uint32_t kind, std::uint32_t robot) {
-      events.push_back({world.t_ns(), 1, kind, robot, 0, 1, inputs_.stride<dmrp_goal>(), 0, inputs_.array(&errand, 1)});
-    };
-    const auto kind = static_cast<std::uint32_t>(step_);
-    if (step_ > 0 && kind <= DMRP_TASK_DONE) add(kind, kind == DMRP_TASK_RELEASED ? DMRP_NOBODY : 0);
-    if (stage_.settings.unknown_kinds) add(unknown_kind, 0);
     return events;
   }
 

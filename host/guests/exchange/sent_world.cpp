@@ -61,7 +61,6 @@ const dmrp_grid* sent_grid(Arena& arena, const dmrp_grid& grid, SentGrids& sent)
   out->free = arena.copy(grid.free, count);
   out->edges = arena.copy(grid.edges, count);
   out->clearance = arena.copy(grid.clearance, count);
-  if (grid.edge_cost) out->edge_cost = arena.copy(grid.edge_cost, 8 * count);
   return known = out;
 }
 

@@ -90,6 +90,12 @@ dmrp_metric_sink sink_into(CollectedValues& collected) {
   return sink;
 }
 
+// What robots do without their controllers: the events of DMRP_CHANNEL_RECOVERIES.
+bool is_of_recoveries(const dmrp_robot_event& event) {
+  return event.kind == DMRP_ROBOT_EVENT_RECOVERY || event.kind == DMRP_ROBOT_EVENT_MONITOR ||
+         event.kind == DMRP_ROBOT_EVENT_ROUTE;
+}
+
 }  // namespace
 
 Measurement::Measurement(Instance& metric, const PluginInfo& info, std::uint32_t index, std::uint32_t robot_count,
@@ -106,8 +112,27 @@ void Measurement::begin(const dmrp_metric_trial& trial) {
 }
 
 void Measurement::observe(const dmrp_sample& sample) {
+  const auto* const bytes = reinterpret_cast<const std::byte*>(&sample);
+  shown_.assign(bytes, bytes + sample.struct_size);  // with what a newer sample has more
+  auto& shown = *reinterpret_cast<dmrp_sample*>(shown_.data());
+  if (!(info_.channels & DMRP_CHANNEL_PEOPLE)) shown.person_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_CALLS)) shown.call_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_ROUTES)) shown.route_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_RECOVERIES)) leave_out_recoveries(shown);
   metric_.call("observe", step_++, call_budget_ns_, Answers::no_other,
-               [&] { return table_.observe(metric_.self(), &sample); });
+               [&] { return table_.observe(metric_.self(), &shown); });
+}
+
+void Measurement::leave_out_recoveries(dmrp_sample& sample) {
+  events_.clear();
+  for (std::uint32_t i = 0; i < sample.event_count; ++i) {
+    const dmrp_robot_event* const event = DMRP_AT(dmrp_robot_event, sample.events, sample.event_stride, i);
+    if (is_of_recoveries(*event)) continue;
+    const auto* const bytes = reinterpret_cast<const std::byte*>(event);
+    events_.insert(events_.end(), bytes, bytes + sample.event_stride);
+  }
+  sample.event_count = static_cast<std::uint32_t>(events_.size() / std::max(1u, sample.event_stride));
+  sample.events = reinterpret_cast<const dmrp_robot_event*>(events_.data());
 }
 
 MetricResult Measurement::finish(const dmrp_trial_end& end) {

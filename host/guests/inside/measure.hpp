@@ -4,8 +4,10 @@
 
 #include <dmrp/metric.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/trace/trace_reader.hpp"
 #include "host/plugins/instance.hpp"
@@ -22,16 +24,21 @@ class Measurement {
               std::int64_t call_budget_ns);
 
   void begin(const dmrp_metric_trial& trial);
+  // What the metric does not declare (descriptor.h, DMRP_CHANNEL_*) it does not get.
   void observe(const dmrp_sample& sample);
   MetricResult finish(const dmrp_trial_end& end);
 
  private:
+  void leave_out_recoveries(dmrp_sample& sample);
+
   Instance& metric_;
   const PluginInfo& info_;
   std::uint32_t index_;
   std::uint32_t robot_count_;
   std::int64_t call_budget_ns_;
   dmrp_metric table_;
+  std::vector<std::byte> shown_;   // a sample as the metric gets it
+  std::vector<std::byte> events_;  // its events, where some are left out
   std::int64_t step_ = 0;
 };
 

@@ -243,11 +243,14 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
 
 void cut_to_window(const dmrp_planning_problem& problem, PlannerAnswer& answer) {
   if (problem.window_steps == 0) return;
+  const std::int64_t end_ns = problem.effective_from_ns + problem.window_steps * problem.step_duration_ns;
   answer.partial.resize(answer.paths.size());
   for (std::size_t i = 0; i < answer.paths.size(); ++i) {
-    if (answer.paths[i].size() <= problem.window_steps + std::size_t{1}) continue;
-    answer.paths[i].resize(problem.window_steps + std::size_t{1});
-    answer.partial[i] = true;
+    std::vector<dmrp_waypoint>& path = answer.paths[i];
+    while (path.size() > 1 && path.back().t_ns > end_ns) {
+      path.pop_back();
+      answer.partial[i] = true;
+    }
   }
 }
 

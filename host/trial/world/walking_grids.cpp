@@ -21,6 +21,7 @@ WalkingGrids::WalkingGrids(std::shared_ptr<const core::StaticGeometry> geometry)
     if (!theirs || !has_v1_0<dmrp_walking_grid_request>(theirs->struct_size)) return nullptr;
     try {
       const dmrp_walking_grid_request request = copy_struct(*theirs);
+      if (request.reserved != 0) return nullptr;
       const Grid* const found = static_cast<WalkingGrids*>(self->context)->grid(request.resolution_m, request.radius_m);
       return found ? &found->view : nullptr;
     } catch (...) {  // out of memory, or a stored world of shapes that this host does not know

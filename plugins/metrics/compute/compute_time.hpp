@@ -38,7 +38,7 @@ class ComputeTime final : public Metric {
         .wall_clock();
   }
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     planning_ = {};
     control_.assign(world().robots().size(), {});
     central_ = {};

@@ -23,8 +23,8 @@ class Interventions final : public CountOfEvents {
                "planning failed");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    CountOfEvents::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    CountOfEvents::begin(trial);
     after_control_ = false;
     least_percent_.assign(counts_.size(), 0);
   }

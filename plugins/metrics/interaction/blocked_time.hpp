@@ -46,8 +46,8 @@ class BlockedTime final : public RobotMetric<BlockedTimes> {
                "blocked time in which the robot travelled over 1 m or turned over 4 pi in its last 20 s");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    RobotMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    RobotMetric::begin(trial);
     classes_.begin(states_.size());
   }
 

@@ -31,7 +31,7 @@ class Deadlock final : public Metric {
                                 .range(0.0, 10000.0)
                                 .doc("T: a cycle that lasts at least this long is a deadlock");
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     classes_.begin(world().robots().size());
     open_.clear();
     last_ns_ = -1;

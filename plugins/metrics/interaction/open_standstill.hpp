@@ -32,8 +32,8 @@ class OpenStandstill final : public RobotMetric<Standstills> {
 
   Param<double> lasting_s = param("lasting_s", 15.0).unit("s").range(0.0, 10000.0).doc("shorter ones do not count");
 
-  void begin(const dmrp_plan* plan) override {
-    RobotMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    RobotMetric::begin(trial);
     classes_.begin(states_.size());
   }
 

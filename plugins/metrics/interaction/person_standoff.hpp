@@ -40,8 +40,8 @@ class PersonStandoff final : public RobotMetric<RobotStandoffs> {
   Param<double> moved_m =
       param("moved_m", 0.3).unit("m").range(0.0, 100.0).doc("who moves farther than this no longer stands");
 
-  void begin(const dmrp_plan* plan) override {
-    RobotMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    RobotMetric::begin(trial);
     active_.begin(states_.size());
   }
 

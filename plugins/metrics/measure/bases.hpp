@@ -16,7 +16,7 @@ namespace dmrp::metrics {
 // Looks at the first plan and at the robots' ends alone, not at what the robots do.
 class FirstPlanMetric : public Metric {
  public:
-  void begin(const dmrp_plan* plan) final { first_plan_ = plan; }
+  void begin(const MetricTrial& trial) final { first_plan_ = trial.plan; }
   void observe(const Sample&) final {}
 
  protected:
@@ -29,7 +29,7 @@ class FirstPlanMetric : public Metric {
 template <class State>
 class RobotMetric : public Metric {
  public:
-  void begin(const dmrp_plan*) override { states_.assign(world().robots().size(), {}); }
+  void begin(const MetricTrial&) override { states_.assign(world().robots().size(), {}); }
 
  protected:
   // Reports value_of(state), or this member of the state, of each robot.
@@ -77,8 +77,8 @@ class ActiveSteps {
 template <class State>
 class ActiveTimeMetric : public RobotMetric<State> {
  public:
-  void begin(const dmrp_plan* plan) override {
-    RobotMetric<State>::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    RobotMetric<State>::begin(trial);
     active_.begin(this->states_.size());
   }
 
@@ -98,9 +98,9 @@ class ActiveTimeMetric : public RobotMetric<State> {
 // of the robot's, and an event of the time line.
 class CountOfEvents : public Metric {
  public:
-  void begin(const dmrp_plan* plan) override {
+  void begin(const MetricTrial& trial) override {
     const std::size_t robot_count = world().robots().size();
-    counts_.assign(robot_count, plan ? 0.0 : undefined);
+    counts_.assign(robot_count, trial.plan ? 0.0 : undefined);
     spells_.clear();
     open_.assign(robot_count, nothing);
   }

@@ -27,7 +27,7 @@ class Arrivals final : public Metric {
                "over robots");
   }
 
-  void begin(const dmrp_plan*) override { goal_index_.assign(world().robots().size(), 0); }
+  void begin(const MetricTrial&) override { goal_index_.assign(world().robots().size(), 0); }
 
   void observe(const Sample& sample) override {
     for (std::size_t robot = 0; robot < goal_index_.size(); ++robot)

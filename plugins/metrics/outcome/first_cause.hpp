@@ -31,7 +31,7 @@ class FirstCause final : public Metric {
                "all, else 0; system: mean over these robots; undefined without such a standstill");
   }
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     classes_.begin(world().robots().size());
     runs_on_.assign(world().robots().size(), false);
   }

@@ -24,8 +24,8 @@ class PathLength final : public Metric {
                "failed");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    first_plan_ = plan;
+  void begin(const MetricTrial& trial) override {
+    first_plan_ = trial.plan;
     driven_.begin(world().robots().size());
   }
 

@@ -32,7 +32,7 @@ class Spl final : public Metric {
     return Status::ok;
   }
 
-  void begin(const dmrp_plan*) override { driven_.begin(world().robots().size()); }
+  void begin(const MetricTrial&) override { driven_.begin(world().robots().size()); }
 
   void observe(const Sample& sample) override { driven_.observe(sample); }
 

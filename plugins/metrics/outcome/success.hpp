@@ -26,7 +26,7 @@ class Success final : public Metric {
                "1 if the robot succeeded without any contact, else 0");
   }
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     at_fault_.assign(world().robots().size(), false);
     touched_.assign(world().robots().size(), false);
   }

@@ -47,8 +47,8 @@ class Ibtr final : public ActiveTimeMetric<TimeMoments> {
           .range(0.0, 10.0)
           .doc("values of speed_fraction for the curve ibtr_by_speed_fraction");
 
-  void begin(const dmrp_plan* plan) override {
-    ActiveTimeMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    ActiveTimeMetric::begin(trial);
     widest_m_ = distance_m;
     for (const double each_m : *distances_m) widest_m_ = std::max(widest_m_, each_m);
     last_ns_ = -1;

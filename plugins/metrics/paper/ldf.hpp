@@ -32,7 +32,7 @@ class Ldf final : public Metric {
                                                .range(0.0, 100.0)
                                                .doc("values of R for the curve ldf_by_distance");
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     const std::size_t robot_count = world().robots().size();
     period_ns_ = std::llround(period_s * 1e9);
     next_ns_ = 0;

@@ -54,9 +54,9 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
                "pfd relative to the first plan; undefined if planning failed");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    ActiveTimeMetric::begin(plan);
-    first_plan_ = plan;
+  void begin(const MetricTrial& trial) override {
+    ActiveTimeMetric::begin(trial);
+    first_plan_ = trial.plan;
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override {

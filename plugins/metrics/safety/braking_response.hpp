@@ -46,7 +46,7 @@ class BrakingResponse final : public Metric {
                                    .doc("of somebody who comes from where the robot cannot see");
 
   // Full braking from the greatest speed, and the danger before it.
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     blamed_.assign(world().robots().size(), false);
     history_.clear();
     memory_ns_ = 0;

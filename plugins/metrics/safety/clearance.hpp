@@ -63,8 +63,8 @@ class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
                                       .range(0.0, 100.0)
                                       .doc("d_safe: surface distances below this count as danger");
 
-  void begin(const dmrp_plan* plan) override {
-    ActiveTimeMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    ActiveTimeMetric::begin(trial);
     for (ClearanceOfRobot& own : states_) own.wall.begin(world());
   }
 

@@ -35,8 +35,8 @@ class Collisions final : public Metric {
         .channels(DMRP_CHANNEL_PEOPLE);
   }
 
-  void begin(const dmrp_plan* plan) override {
-    planned_ = plan != nullptr;
+  void begin(const MetricTrial& trial) override {
+    planned_ = trial.plan != nullptr;
     events_.clear();
     latest_.clear();
   }

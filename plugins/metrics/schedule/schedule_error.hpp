@@ -37,8 +37,8 @@ class ScheduleError final : public RobotMetric<Schedule> {
                "mean over the same waypoints of the absolute difference; undefined for a robot that passes none");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    RobotMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    RobotMetric::begin(trial);
     revision_ = 0;
   }
 

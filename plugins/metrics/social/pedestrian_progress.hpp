@@ -32,7 +32,7 @@ class PedestrianProgress final : public Metric {
                "mean of the desired speed over time and present people; undefined without people");
   }
 
-  void begin(const dmrp_plan*) override {
+  void begin(const MetricTrial&) override {
     legs_.clear();
     finished_m_ = {};
     most_people_ = 0;

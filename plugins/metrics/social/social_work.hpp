@@ -41,8 +41,8 @@ class SocialWork final : public ActiveTimeMetric<WorkOfRobot> {
                "people");
   }
 
-  void begin(const dmrp_plan* plan) override {
-    ActiveTimeMetric::begin(plan);
+  void begin(const MetricTrial& trial) override {
+    ActiveTimeMetric::begin(trial);
     people_ = false;
     for (WorkOfRobot& work : states_) work.wall.begin(world());
   }

@@ -10,7 +10,7 @@
 //   New fields are appended. The maker of a struct sets struct_size to the sizeof it was compiled with; the reader
 //   checks DMRP_HAS(pointer, field) for every field newer than v1.0. Every appended field names its absent value, which
 //   a reader takes where the maker's struct does not have it, and which the host fills in where it passes on what an
-//   older plugin made.
+//   older plugin made. In what a plugin makes or fills in, the absent value is zero.
 // - *Array elements* cross as pointer, count and the owner's stride in bytes; access them with DMRP_AT, never with [].
 //   Elements grow like growable structs: the stride tells which fields exist (DMRP_STRIDE_HAS). Only the contract
 //   appends fields: what a plugin appends for itself is not passed on. Strides are multiples of 8. A pointer to a single
@@ -56,7 +56,7 @@
 
 // Until v1 is frozen the contract may change, so host and plugin must have the same draft number.
 // It becomes zero with the freeze.
-#define DMRP_ABI_DRAFT 3
+#define DMRP_ABI_DRAFT 4
 
 // The lowest minor version of the host that a plugin asks for: it sees no later field, and entry.min_host_minor is this.
 #ifndef DMRP_TARGET_MINOR

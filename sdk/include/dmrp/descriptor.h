@@ -27,15 +27,11 @@ extern "C" {
 
 // Bits of a descriptor's flags. Open list: a host ignores bits that it does not know, but for DMRP_FLAGS_NEEDED.
 #define DMRP_FLAG_UNCOORDINATED 1u     // planner: its paths ignore each other: conflicts are recorded, not a fault
-#define DMRP_FLAG_CENTRAL 2u           // controller: one instance drives all robots, through step_all()
+#define DMRP_FLAG_CENTRAL 2u           // controller: one instance drives the robots of its fleet, by step_all()
 #define DMRP_FLAG_BACKWARDS 4u         // controller: may command v_x < 0 to robots whose limits allow it
 #define DMRP_FLAG_PROCESSES 8u         // starts processes of its own, which end before destroy() returns
 #define DMRP_FLAG_RESIDENT_MEMORY 16u  // maps more memory than it touches: the limit counts resident pages
 #define DMRP_FLAG_WINDOWED 32u         // planner: can plan the next problem.window_steps alone
-#define DMRP_FLAG_ASSIGNS 64u          // planner: gives tasks to robots, through assign()
-#define DMRP_FLAG_PARALLEL 128u        // instances of this library may be called at the same time
-// Controller, with CENTRAL: central in form only. The command of a robot depends on what that robot alone was given.
-#define DMRP_FLAG_BATCHED 256u
 
 // These bits are for plugins that a host must understand: one that does not know such a bit skips the plugin.
 #define DMRP_FLAGS_NEEDED 0xffff0000u
@@ -50,14 +46,13 @@ extern "C" {
 #define DMRP_SUBJECT_ROBOT 1u
 #define DMRP_SUBJECT_PEDESTRIAN 2u
 
-// What a metric needs of the trace besides robots, plan, contacts: bits of the channels of its traits. Open list.
+// What a metric needs of the trace besides robots, plan, contacts: bits of the channels of its traits. Of what it does not
+// declare it gets none: a count of 0. Open list.
 #define DMRP_CHANNEL_PEOPLE 1u  // positions and velocities of people
 #define DMRP_CHANNEL_CALLS 2u   // durations of plugin calls
-#define DMRP_CHANNEL_SCANS 4u   // lidar scans; reserved: samples of v1.0 contain none
-// Recoveries. An experiment that names no metrics measures such a metric only where robots have recoveries.
+// Recoveries, and what a monitor or a route did: events. An experiment that names no metrics measures such a metric only where robots have recoveries.
 #define DMRP_CHANNEL_RECOVERIES 8u
 #define DMRP_CHANNEL_ROUTES 16u  // what controllers were handed to follow
-#define DMRP_CHANNEL_TASKS 32u   // tasks, released and done
 
 // One value that a metric computes. Array element.
 typedef struct dmrp_metric_value_spec {
@@ -93,14 +88,18 @@ typedef struct dmrp_metric_traits {
 
 typedef struct dmrp_descriptor {
   uint32_t struct_size;
-  uint32_t kind;        // DMRP_KIND_*
-  const char* id;       // reverse DNS in letters, digits, '.', '_' and '-'; "dmrp." is for the built-in plugins
-  const char* name;     // for display
-  const char* version;  // of the plugin, semantic
-  const char* vendor;
-  const char* license;        // SPDX expression
-  const char* summary;        // one line
-  const char* source;         // paper, section, equation; "" where there is none
+  uint32_t kind;     // DMRP_KIND_*
+  const char* id;    // reverse DNS in letters, digits, '.', '_' and '-': "org.example.dwa"; "dmrp." is for the built-in
+  const char* name;  // for display: "DWA"
+  const char* version;     // of the plugin, semantic: "1.4.2"
+  const char* vendor;      // "Example Robotics Lab"
+  const char* license;     // SPDX expression: "MIT"
+  const char* url;         // its home: "https://example.org/dwa"; NULL or "" where there is none, as the next
+  const char* manual_url;  // "https://example.org/dwa/manual"
+  const char* summary;     // one line: "drives by sampling velocities, Fox et al. 1997"
+  const char* source;      // paper, section, equation: "Fox, Burgard, Thrun 1997, eq. 13"; "" where there is none
+  // Words to search for, with a NULL after the last: {"sampling", "anytime", NULL}. NULL: none.
+  const char* const* features;
   const char* const* needed;  // needed_count extensions without which it cannot run
   const char* const* uses;    // uses_count extensions that it uses when available; the host gives no others
   uint32_t needed_count;
@@ -119,7 +118,7 @@ DMRP_ASSERT_SIZE(dmrp_metric_value_spec, 40);
 DMRP_ASSERT_SIZE(dmrp_planner_traits, 8);
 DMRP_ASSERT_SIZE(dmrp_controller_traits, 8);
 DMRP_ASSERT_SIZE(dmrp_metric_traits, 24);
-DMRP_ASSERT_SIZE(dmrp_descriptor, 120);
+DMRP_ASSERT_SIZE(dmrp_descriptor, 144);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@ extern "C" {
 typedef struct dmrp_entry dmrp_entry;
 struct dmrp_entry {
   uint32_t struct_size;
-  uint32_t abi_minor;       // the minor version that the library was built with; informational
+  uint32_t abi_minor;       // DMRP_TARGET_MINOR: of the newest fields, constants and meanings that the library knows
   uint32_t min_host_minor;  // DMRP_TARGET_MINOR: an older host refuses the library and prints both versions
   uint32_t abi_draft;       // must equal the host's until v1 is frozen
 

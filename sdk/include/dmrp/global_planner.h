@@ -6,15 +6,10 @@
 
 #include "path.h"
 #include "plugin.h"
-#include "task.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// Bits of a planning robot's flags. Open list.
-#define DMRP_PLANNING_MAY_MOVE 1u  // it has no task: its goal is a proposal, and its path may end anywhere
-#define DMRP_PLANNING_BROKEN 2u    // it stands until `until_ns`
 
 // A robot as the planner sees it. Array element.
 typedef struct dmrp_planning_robot {
@@ -28,10 +23,7 @@ typedef struct dmrp_planning_robot {
   dmrp_pose pose;             // its present pose
   dmrp_twist velocity;        // its present velocity
   dmrp_vec2 start;            // `pose` snapped to the centre of a free cell of its own: its path begins here
-  uint32_t committed_steps;   // its path begins with as many steps of the plan in force; 0: none
-  uint32_t flags;             // DMRP_PLANNING_* bits
   int64_t waiting_ns;         // simulated time since it last made progress: a priority that needs no memory
-  int64_t until_ns;           // of a broken robot; 0 otherwise
 } dmrp_planning_robot;
 
 typedef struct dmrp_planning_problem {
@@ -48,10 +40,10 @@ typedef struct dmrp_planning_problem {
   const dmrp_grid* grid;      // world.planning_grid: `free` and `edges` hold for every robot
   const dmrp_path* in_force;  // the plan in force, one path per robot
   uint32_t in_force_stride;
-  // Asked of a planner with DMRP_FLAG_WINDOWED: paths are free of conflicts for so many steps, and partial where they end
-  // before the last goal. Their last cells differ. A longer path is cut there. 0: the whole way.
+  // Asked of a planner with DMRP_FLAG_WINDOWED: paths are free of conflicts until the window's end, effective_from_ns +
+  // window_steps * step_duration_ns, and partial where they end before the last goal. Their last places differ. A longer
+  // path is cut at its last waypoint not after that end. 0: the whole way.
   uint32_t window_steps;
-  int64_t committed_until_ns;  // simulated time to which committed steps reach; 0: there are none
 } dmrp_planning_problem;
 
 // Receives the result of plan(). The host collects while plan() runs and commits only if it returns DMRP_OK or
@@ -77,34 +69,6 @@ struct dmrp_plan_sink {
   int32_t (*statistic)(dmrp_plan_sink* sink, const char* name, double value);
 };
 
-// Robots that may get a task, and open tasks; made by the host for one call of assign().
-typedef struct dmrp_assignment {
-  uint32_t struct_size;
-  uint32_t robot_count;
-  const dmrp_planning_robot* robots;  // all, as for plan()
-  uint32_t robot_stride;
-  uint32_t task_stride;
-  const dmrp_task* tasks;  // in order of release
-  uint32_t task_count;
-  uint32_t reserved;
-  int64_t now_ns;         // simulated time
-  const dmrp_grid* grid;  // world.planning_grid
-} dmrp_assignment;
-
-// Receives the result of assign(). The host commits only if it returns DMRP_OK or DMRP_WARNING.
-typedef struct dmrp_assignment_sink dmrp_assignment_sink;
-struct dmrp_assignment_sink {
-  uint32_t struct_size;
-  uint32_t reserved;
-  void* context;  // the host's own
-
-  // The robot does this task next. A task that was given to another robot, which has not visited its first errand, goes
-  // over to this one. Returns DMRP_OK; DMRP_OUT_OF_MEMORY; or DMRP_ERROR for a robot or a task that is not in the
-  // problem, or one of them given twice.
-  // [step]
-  int32_t (*give)(dmrp_assignment_sink* sink, uint32_t robot, uint64_t task);
-};
-
 typedef struct dmrp_global_planner {
   uint32_t struct_size;
   uint32_t reserved;
@@ -123,19 +87,12 @@ typedef struct dmrp_global_planner {
   // long as a straight one, so cost and time differ; never report one under the name of the other.
   // [step]
   int32_t (*plan)(dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink);
-
-  // With DMRP_FLAG_ASSIGNS: gives open tasks to robots, whenever a task or a robot has become free. NULL without the
-  // flag. A host without tasks does not call it.
-  // [step]
-  int32_t (*assign)(dmrp_instance* self, const dmrp_assignment* problem, dmrp_assignment_sink* sink);
 } dmrp_global_planner;
 
-DMRP_ASSERT_SIZE(dmrp_planning_robot, 128);
-DMRP_ASSERT_SIZE(dmrp_planning_problem, 96);
+DMRP_ASSERT_SIZE(dmrp_planning_robot, 112);
+DMRP_ASSERT_SIZE(dmrp_planning_problem, 88);
 DMRP_ASSERT_SIZE(dmrp_plan_sink, 32);
-DMRP_ASSERT_SIZE(dmrp_assignment, 56);
-DMRP_ASSERT_SIZE(dmrp_assignment_sink, 24);
-DMRP_ASSERT_SIZE(dmrp_global_planner, 24);
+DMRP_ASSERT_SIZE(dmrp_global_planner, 16);
 
 #ifdef __cplusplus
 }

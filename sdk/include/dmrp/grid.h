@@ -22,7 +22,7 @@ extern "C" {
 
 // Cells are row-major from the lower left: index = row * width + column; +column is +x, +row is +y.
 // The centre of a cell is origin + ((column + 0.5), (row + 0.5)) * resolution_m.
-// Arrays have width * height elements, are not NULL unless it is said, and are valid as long as the struct.
+// Arrays have width * height elements, are not NULL, and are valid as long as the struct.
 typedef struct dmrp_grid {
   uint32_t struct_size;
   uint32_t width;   // columns
@@ -34,12 +34,9 @@ typedef struct dmrp_grid {
   const uint8_t* edges;    // bit DMRP_EDGE_*: the footprint swept along the move stays free, and both cells are free;
                            // for a diagonal move the two cells beside it are free too
   const float* clearance;  // m from the cell's centre to the nearest static shape or border; 0 inside a shape
-  // What a move costs beyond its length, in hundredths of a step: 8 for each cell, in the order of the edge bits. Constant
-  // over time. A planner's cost and lower bound include it. NULL: nothing.
-  const uint16_t* edge_cost;
 } dmrp_grid;
 
-DMRP_ASSERT_SIZE(dmrp_grid, 72);
+DMRP_ASSERT_SIZE(dmrp_grid, 64);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 // local_controller.h: drives a robot along its path with one command per control period. One instance per robot; or,
-// with DMRP_FLAG_CENTRAL, one instance for all robots.
+// with DMRP_FLAG_CENTRAL, one instance for the robots of its fleet.
 #ifndef DMRP_LOCAL_CONTROLLER_H
 #define DMRP_LOCAL_CONTROLLER_H
 
@@ -62,8 +62,8 @@ typedef struct dmrp_local_controller {
 
   // Computes the next command. Returns
   //   DMRP_OK           command is valid
-  //   DMRP_NO_SOLUTION  there is no admissible command; the host brakes within the limits. Not a fault; after 5 s
-  //                     without a command the robot fails (DMRP_FAILURE_CONTROLLER)
+  //   DMRP_NO_SOLUTION  there is no admissible command; the host brakes within the limits. Not a fault; without
+  //                     a command for some time the robot fails (DMRP_FAILURE_CONTROLLER)
   //   DMRP_ERROR        the instance is unusable until the next start(); the trial ends with a fault
   // Must not block, allocate without bound, or read a clock. NULL with DMRP_FLAG_CENTRAL.
   //

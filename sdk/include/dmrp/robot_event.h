@@ -28,9 +28,9 @@ extern "C" {
 #define DMRP_RECOVERY_BACKUP 4u
 #define DMRP_RECOVERY_REPLAN 5u
 
-// `detail` of a class: what an active robot does, exactly one of these, and bits. The first sample has the class of every
-// active robot, MOVING, later ones have changes. Open list.
-#define DMRP_CLASS_MOVING 0u      // gained 0.2 m in its last 20 s, or begins
+// `detail` of a class: what an active robot does, as the referee counts it (docs/endings.md): exactly one of these, and
+// bits. The first sample has the class of every active robot, MOVING, later ones have changes. Open list.
+#define DMRP_CLASS_MOVING 0u      // makes progress, or begins
 #define DMRP_CLASS_SETTLING 1u    // meets its goal's conditions
 #define DMRP_CLASS_RECOVERING 2u  // drives by itself
 #define DMRP_CLASS_HELD 3u        // waits, as the plan's order says, for `other`
@@ -38,7 +38,7 @@ extern "C" {
 #define DMRP_CLASS_BLOCKED_ROBOT 5u  // by `other`, on the next metre of its course
 #define DMRP_CLASS_STUCK 6u          // nobody holds or blocks it
 #define DMRP_CLASS_MASK 0xFFu
-#define DMRP_CLASS_CIRCLING 0x100u  // a bit: not moving, but it travels over 1 m or turns over 4 pi in 20 s
+#define DMRP_CLASS_CIRCLING 0x100u  // a bit: not moving, but it travels or turns
 
 // An event since the last sample. Array element.
 typedef struct dmrp_robot_event {

@@ -7,7 +7,6 @@
 #include "plan.h"
 #include "robot.h"
 #include "robot_event.h"
-#include "task.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,12 +33,12 @@ typedef struct dmrp_robot_sample {
 #define DMRP_CONTACT_PERSON 3u  // `a` a robot, `b` an index into sample.people
 
 // Bits of a contact. Open list. Fault is passive motion safety (Bouraine, Fraichard, Salhi 2012): a body is at fault
-// unless it was at rest (slower than 0.05 m/s) or moving away from the other when they touched; a wall is at rest.
+// unless it was at rest, as the referee counts it (docs/endings.md), or moving away from the other when they touched; a
+// wall is at rest.
 // Whether a braking response excuses a robot at fault is no bit: a metric judges it by the samples before.
-#define DMRP_CONTACT_BEGINS 1u       // first sample of an event: this pair was not in contact for the last 0.5 s
-#define DMRP_CONTACT_FAULT_A 2u      // robot `a` is at fault
-#define DMRP_CONTACT_FAULT_B 4u      // robot `b`, or the person, is at fault
-#define DMRP_CONTACT_UNAVOIDABLE 8u  // no longer set, and ignored where an older trace has it
+#define DMRP_CONTACT_BEGINS 1u   // first sample of an event: this pair was not in contact just before
+#define DMRP_CONTACT_FAULT_A 2u  // robot `a` is at fault
+#define DMRP_CONTACT_FAULT_B 4u  // robot `b`, or the person, is at fault
 
 // Two bodies that overlap by more than 1 mm at this sample. Array element.
 typedef struct dmrp_contact {
@@ -56,7 +55,6 @@ typedef struct dmrp_contact {
 #define DMRP_CALL_PLAN 1u
 #define DMRP_CALL_CONTROL 2u
 #define DMRP_CALL_PEOPLE 3u
-#define DMRP_CALL_ASSIGN 4u
 
 #define DMRP_ALL_ROBOTS 0xFFFFFFFEu  // the robot of a call that concerns all
 
@@ -101,16 +99,13 @@ typedef struct dmrp_sample {
   const dmrp_route* routes;  // ordered by robot
   uint32_t route_count;
   uint32_t route_stride;
-  const dmrp_task_event* task_events;  // in order of time
-  uint32_t task_event_count;
-  uint32_t task_event_stride;
 } dmrp_sample;
 
 DMRP_ASSERT_SIZE(dmrp_robot_sample, 128);
 DMRP_ASSERT_SIZE(dmrp_contact, 48);
 DMRP_ASSERT_SIZE(dmrp_call, 24);
 DMRP_ASSERT_SIZE(dmrp_route, 16);
-DMRP_ASSERT_SIZE(dmrp_sample, 144);
+DMRP_ASSERT_SIZE(dmrp_sample, 128);
 
 #ifdef __cplusplus
 }

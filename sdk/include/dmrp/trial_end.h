@@ -17,11 +17,11 @@ extern "C" {
 #define DMRP_ENDING_DESERTED 5u  // there are no robots, and all people have left for good
 #define DMRP_ENDING_OVER 6u      // no robot is active, and not all have arrived
 
-// Why a robot failed. Open list: a reader takes a failure that it does not know for TIMEOUT.
+// Why a robot failed, as the referee counts it (docs/endings.md). Open list: a reader takes a failure that it does not know for TIMEOUT.
 #define DMRP_FAILURE_NONE 0u
 #define DMRP_FAILURE_TIMEOUT 1u      // still made progress
 #define DMRP_FAILURE_OSCILLATION 2u  // arrived after it circled, where the experiment excludes that
-#define DMRP_FAILURE_CONTROLLER 4u   // no command for 5 s
+#define DMRP_FAILURE_CONTROLLER 4u   // no command for too long
 #define DMRP_FAILURE_NO_PLAN 5u
 #define DMRP_FAILURE_HELD_BEHIND 6u     // waited, as the plan's order says, behind `culprit`
 #define DMRP_FAILURE_CIRCLING 7u        // travelled or turned without progress

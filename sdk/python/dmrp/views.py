@@ -339,7 +339,7 @@ class Problem:
         self.step_duration_ns = int(problem.step_duration_ns)
         self.window_steps = int(problem.window_steps)
         rows = _abi.array(problem.robots, problem.robot_count, PLANNING_ROBOT, problem.robot_stride)
-        self.robots = rows  # state, pose (3), velocity (3), committed_steps, waiting_ns ...
+        self.robots = rows  # state, pose (3), velocity (3), start (2), waiting_ns ...
         self.start = self.grid.cell_of(rows["start"])  # (n, 2)
         self.grids = [Grid(int(row["grid"])) for row in rows]  # of each robot's footprint
         self.goals = [

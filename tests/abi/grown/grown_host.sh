@@ -36,7 +36,8 @@ for kind in planner controller pedestrian-model metric; do
   g++ -std=c++17 "${flags[@]}" "$kind.cpp" -o "lib$kind.so"
 done
 gcc -std=c99 "${flags[@]}" "$source_dir/examples/other_languages/planner.c" -lm -o libplanner_in_c.so
-gcc -std=c99 "${flags[@]}" "$source_dir/tests/abi/old_plugins/controller.c" -lm -o libcontroller_in_c.so
+python3 "$source_dir/tests/abi/old_plugins/mix.py" "$source_dir/tests/abi/v1.txt" >mixed_fields.h
+gcc -std=c99 "${flags[@]}" -I . "$source_dir/tests/abi/old_plugins/controller.c" -lm -o libcontroller_in_c.so
 
 # both NAME COMMAND...: the output of each host, with HOST in its place, is the same
 both() {

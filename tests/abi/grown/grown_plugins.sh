@@ -12,11 +12,12 @@ recorded=$sources/answers.txt
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$here/grow.sh" "$include" "$scratch/grown"
+python3 "$sources/mix.py" "$here/../v1.txt" >"$scratch/mixed_fields.h"
 
 # build SUFFIX FLAG...
 build() {
   local flags=(-pedantic -Wall -Wextra -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden)
-  flags+=(-I "$here/../../.." -I "$scratch/grown")
+  flags+=(-I "$here/../../.." -I "$scratch" -I "$scratch/grown")
   "$c" -std=c99 "${flags[@]}" "${@:2}" "$sources/controller.c" -lm -o "$scratch/libcontroller_$1.so"
   "$cxx" -std=c++17 "${flags[@]}" "${@:2}" "$sources/plugins.cpp" -o "$scratch/libplugins_$1.so"
 }

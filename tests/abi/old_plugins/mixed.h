@@ -17,15 +17,6 @@ static inline void mix(mixed* all, double value) {
   if (value > 1e6 || value < -1e6) value = 0.75;
   all->sum = fmod(all->sum * 1.25 + value, 64.0);
 }
-static inline void mix_pose(mixed* all, dmrp_pose pose) {
-  mix(all, pose.x), mix(all, pose.y), mix(all, pose.theta);
-}
-static inline void mix_twist(mixed* all, dmrp_twist twist) {
-  mix(all, twist.v_x), mix(all, twist.v_y), mix(all, twist.omega);
-}
-static inline void mix_vec2(mixed* all, dmrp_vec2 vector) {
-  mix(all, vector.x), mix(all, vector.y);
-}
 static inline void mix_text(mixed* all, const char* text) {
   for (; text && *text; ++text) mix(all, (double)*text);
 }

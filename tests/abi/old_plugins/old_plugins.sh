@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Plugins answer on this host as recorded, and their sources compile without a warning: with the frozen headers, once there
-# are some, and with today's. Each plugin mixes every field that it is handed into what it answers. The stage is that of
+# are some, and with today's. Each plugin mixes every field that it is handed, by the list of
+# fields, into what it answers. The stage is that of
 # `dmrp-host check`; answers.txt changes only with the stage or, in a draft, with the headers.
 # Called as: old_plugins.sh ANSWERS INCLUDE_DIR C_COMPILER CXX_COMPILER [--record]
 set -euo pipefail
@@ -16,7 +17,7 @@ trap 'rm -rf "$scratch"' EXIT
 # answers_with INCLUDE_DIR FLAG...: of the libraries built with these headers
 answers_with() {
   local flags=(-pedantic -Wall -Wextra -Werror -O2 -ffp-contract=off -fPIC -shared -fvisibility=hidden)
-  flags+=(-I "$here/../../.." -I "$@")
+  flags+=(-I "$here/../../.." -I "$scratch" -I "$@")
   "$c" -std=c99 "${flags[@]}" "$here/controller.c" -lm -o "$scratch/libcontroller.so"
   "$cxx" -std=c++17 "${flags[@]}" "$here/plugins.cpp" -o "$scratch/libplugins.so"
   "$answers" "$scratch/libcontroller.so" && "$answers" "$scratch/libplugins.so"
@@ -29,6 +30,9 @@ expect() {
     exit 1
   }
 }
+layout=$here/../v1.txt
+[[ ! -d $here/../frozen/1.0 ]] || layout=$here/../frozen/1.0.txt
+python3 "$here/mix.py" "$layout" >"$scratch/mixed_fields.h"
 if [[ ${5:-} == --record ]]; then
   answers_with "$frozen" >"$recorded"
   exit

@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A plugin of each kind by the C++ layer, without the toolkit. Each reads all that it is handed, and lets it decide its
 // outputs.
-#include <dmrp/plugin.hpp>
+#include <mixed_fields.h>
 
-#include "tests/abi/old_plugins/mixed_world.h"
+#include <dmrp/plugin.hpp>
 
 namespace {
 
-constexpr double any_heading = dmrp::undefined;
-
-void mix_path(mixed& all, const dmrp::Path& path) {
+void mix_way(mixed& all, const dmrp::Path& path) {
   mix(&all, path.is_partial()), mix(&all, path.continues());
-  for (const dmrp::Waypoint& waypoint : path) {
-    mix(&all, waypoint.x), mix(&all, waypoint.y), mix(&all, waypoint.theta);
-    mix_time(&all, waypoint.t_ns), mix(&all, waypoint.goal_index);
-  }
+  for (const dmrp::Waypoint& waypoint : path) mix_waypoint(&all, &waypoint);
 }
-void mix_person(mixed& all, const dmrp::Person& person) {
-  mix(&all, static_cast<double>(person.id)), mix(&all, person.group), mix(&all, person.target_id);
-  mix_vec2(&all, person.position), mix_vec2(&all, person.velocity), mix(&all, person.radius_m);
-  mix(&all, person.desired_speed), mix_vec2(&all, person.target), mix_vec2(&all, person.area_lower);
-  mix_vec2(&all, person.area_upper), mix(&all, person.reaction);
-}
-void mix_agent(mixed& all, const dmrp::Agent& agent) {
-  mix(&all, static_cast<double>(agent.id)), mix(&all, agent.kind), mix(&all, agent.state);
-  mix_pose(&all, agent.pose), mix_vec2(&all, agent.velocity), mix(&all, agent.radius_m);
-}
-void mix_start(mixed& all, const dmrp::Start& start) {
+void begin(mixed& all, const dmrp::Start& start) {
   all = {0.0};
   mix(&all, start.robot), mix(&all, static_cast<double>(start.seed)), mix_world(&all, start.world.operator->());
 }
@@ -40,19 +25,17 @@ class Planner final : public dmrp::GlobalPlanner {
   dmrp::Param<std::int64_t> number = param("number", std::int64_t{7}).range(0, 9).doc("mixed in");
   dmrp::Param<std::string> text = param("text", "text").doc("mixed in");
 
-  dmrp::Status start(const dmrp::Start& start) override { return mix_start(all_, start), dmrp::Status::ok; }
+  dmrp::Status start(const dmrp::Start& start) override { return begin(all_, start), dmrp::Status::ok; }
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     mix(&all_, static_cast<double>(*number)), mix_text(&all_, text->c_str());
     mix(&all_, static_cast<double>(problem.revision)), mix_time(&all_, problem.now_ns);
     mix_time(&all_, problem.effective_from_ns), mix_time(&all_, problem.step_duration_ns);
-    mix(&all_, problem.window_steps), mix_time(&all_, problem.committed_until_ns), mix_grid(&all_, &problem.grid);
-    for (const dmrp_path& path : problem.in_force) mix_path(all_, dmrp::Path(path));
+    mix(&all_, problem.window_steps), mix_grid(&all_, &problem.grid);
+    for (const dmrp_path& path : problem.in_force) mix_path(&all_, &path);
     std::uint32_t index = 0;
     for (const dmrp::PlanningRobot& robot : problem.robots) {
-      mix(&all_, robot.state), mix(&all_, robot.first_goal_index), mix_robot(&all_, robot.robot);
-      mix_grid(&all_, robot.grid), mix_pose(&all_, robot.pose), mix_twist(&all_, robot.velocity);
-      for (const dmrp::Goal& goal : dmrp::goals(robot)) mix_goal(&all_, &goal);
+      mix_planning_robot(&all_, &robot);
       sink.path(index++, way_of(robot, problem));
     }
     sink.statistic("mixed", mixed_value(&all_));
@@ -67,8 +50,8 @@ class Planner final : public dmrp::GlobalPlanner {
     std::vector<dmrp::Waypoint> way;
     const auto go = [&](double x) {
       const auto steps = static_cast<std::int64_t>(way.size());
-      way.push_back({x, robot.start.y, any_heading, problem.effective_from_ns + steps * problem.step_duration_ns,
-                     robot.first_goal_index, 0});
+      way.push_back(dmrp::waypoint(x, robot.start.y, problem.effective_from_ns + steps * problem.step_duration_ns,
+                                   robot.first_goal_index));
     };
     const auto waits = static_cast<int>(4.0 * (1.0 + mixed_value(&all_)));
     for (int i = 0; i < waits; ++i) go(robot.start.x);
@@ -79,12 +62,12 @@ class Planner final : public dmrp::GlobalPlanner {
   mixed all_ = {0.0};
 };
 
-void mix_observation(mixed& all, const dmrp::Observation& now) {
-  mix(&all, now.robot), mix_time(&all, now.t_ns), mix_time(&all, now.dt_ns), mix_pose(&all, now.pose);
-  mix_twist(&all, now.velocity), mix_twist(&all, now.applied), mix_goal(&all, &now.goal), mix(&all, now.goal_index);
+void mix_now(mixed& all, const dmrp::Observation& now) {
+  mix(&all, now.robot), mix_time(&all, now.t_ns), mix_time(&all, now.dt_ns), mix_pose(&all, &now.pose);
+  mix_twist(&all, &now.velocity), mix_twist(&all, &now.applied), mix_goal(&all, &now.goal), mix(&all, now.goal_index);
   mix(&all, now.goal_count), mix(&all, now.progress_m), mix(&all, now.progress_waypoint);
   mix_limits(&all, &now.limits), mix_footprint(&all, &now.footprint), mix(&all, now.steering_angle);
-  for (const dmrp::Agent& agent : now.agents) mix_agent(all, agent);
+  for (const dmrp::Agent& agent : now.agents) mix_agent(&all, &agent);
 }
 dmrp::Command command_of(const mixed& all) {
   dmrp::Command command;
@@ -99,20 +82,16 @@ class Controller final : public dmrp::LocalController {
     return dmrp::Descriptor("org.example.mixing_controller", "Mixing", "1.0.0").uses({DMRP_EXT_LOCAL_COSTMAP});
   }
   dmrp::Status start(const dmrp::Start& start) override {
-    mix_start(all_, start);
+    begin(all_, start);
     costmap_ = find_extension<dmrp_local_costmap>();
     return dmrp::Status::ok;
   }
   void set_path(dmrp::Path path, std::uint64_t revision) override {
-    mix(&all_, static_cast<double>(revision)), mix_path(all_, path);
+    mix(&all_, static_cast<double>(revision)), mix_way(all_, path);
   }
   dmrp::Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    mix_observation(all_, now);
-    if (costmap_) {
-      const dmrp_costmap* map = costmap_->costmap(costmap_, now.robot);
-      mix_vec2(&all_, map->origin), mix(&all_, map->resolution_m), mix(&all_, map->inscribed_radius_m);
-      for (std::uint32_t i = 0; i < map->width * map->height; ++i) mix(&all_, map->costs[i]);
-    }
+    mix_now(all_, now);
+    if (costmap_) mix_costmap(&all_, costmap_->costmap(costmap_, now.robot));
     command = command_of(all_);
     return dmrp::Status::ok;
   }
@@ -125,13 +104,13 @@ class Controller final : public dmrp::LocalController {
 class Central final : public dmrp::CentralController {
  public:
   static dmrp::Descriptor describe() { return dmrp::Descriptor("org.example.mixing_central", "Mixing", "1.0.0"); }
-  dmrp::Status start(const dmrp::Start& start) override { return mix_start(all_, start), dmrp::Status::ok; }
+  dmrp::Status start(const dmrp::Start& start) override { return begin(all_, start), dmrp::Status::ok; }
   void set_path(std::uint32_t robot, dmrp::Path path, std::uint64_t revision) override {
-    mix(&all_, robot), mix(&all_, static_cast<double>(revision)), mix_path(all_, path);
+    mix(&all_, robot), mix(&all_, static_cast<double>(revision)), mix_way(all_, path);
   }
   dmrp::Status step(dmrp::Fleet& fleet) override {
     for (std::size_t i = 0; i < fleet.size(); ++i) {
-      mix_observation(all_, fleet[i]);
+      mix_now(all_, fleet[i]);
       if (mixed_value(&all_) > 0.9)
         fleet.brake(i);
       else
@@ -147,12 +126,12 @@ class Central final : public dmrp::CentralController {
 class Pedestrians final : public dmrp::PedestrianModel {
  public:
   static dmrp::Descriptor describe() { return dmrp::Descriptor("org.example.mixing_people", "Mixing", "1.0.0"); }
-  dmrp::Status start(const dmrp::Start& start) override { return mix_start(all_, start), dmrp::Status::ok; }
+  dmrp::Status start(const dmrp::Start& start) override { return begin(all_, start), dmrp::Status::ok; }
   dmrp::Status step(const dmrp::Crowd& crowd, dmrp::Motions& motions) override {
     mix_time(&all_, crowd.t_ns), mix_time(&all_, crowd.dt_ns);
-    for (const dmrp::Agent& robot : crowd.robots) mix_agent(all_, robot);
+    for (const dmrp::Agent& robot : crowd.robots) mix_agent(&all_, &robot);
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      mix_person(all_, crowd.people[i]);
+      mix_person(&all_, &crowd.people[i]);
       motions[i].velocity = {mixed_value(&all_), 0.5 * mixed_value(&all_)};
     }
     return dmrp::Status::ok;
@@ -167,51 +146,33 @@ class Metric final : public dmrp::Metric {
   static dmrp::Descriptor describe() {
     return dmrp::Descriptor("org.example.mixing_metric", "Mixing", "1.0.0")
         .value("mixed", "1", dmrp::Direction::none, dmrp::Subjects::system_and_robots, "all that it was shown")
-        .channels(DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS);
+        .channels(DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS | DMRP_CHANNEL_RECOVERIES | DMRP_CHANNEL_ROUTES);
   }
-  void begin(const dmrp_plan* plan) override {
+  void begin(const dmrp::MetricTrial& trial) override {
     all_ = {0.0};
     mix_world(&all_, world().operator->());
-    mix_plan(plan);
+    if (trial.plan) mix_plan(&all_, trial.plan);
   }
   void observe(const dmrp::Sample& sample) override {
     mix_time(&all_, sample.t_ns), mix_time(&all_, sample.dt_ns), mix(&all_, sample.control_tick);
-    mix_plan(sample.plan);
-    for (const dmrp::RobotSample& robot : sample.robots) {
-      mix_pose(&all_, robot.pose), mix_twist(&all_, robot.velocity), mix_twist(&all_, robot.command);
-      mix(&all_, robot.state), mix(&all_, robot.goal_index), mix(&all_, robot.progress_m);
-      mix(&all_, robot.steering_angle), mix_twist(&all_, robot.answer), mix(&all_, robot.answer_status);
-    }
-    for (const dmrp::Person& person : sample.people) mix_person(all_, person);
-    for (const dmrp::Contact& contact : sample.contacts) {
-      mix(&all_, contact.kind), mix(&all_, contact.flags), mix(&all_, contact.a), mix(&all_, contact.b);
-      mix(&all_, contact.depth_m), mix_vec2(&all_, contact.point), mix(&all_, contact.impact_speed);
-    }
-    for (const dmrp::Call& call : sample.calls) {
-      mix(&all_, call.kind), mix(&all_, call.robot), mix(&all_, call.status), mix_time(&all_, call.duration_ns);
-    }
+    if (sample.plan) mix_plan(&all_, sample.plan);
+    for (const dmrp::RobotSample& robot : sample.robots) mix_robot_sample(&all_, &robot);
+    for (const dmrp::Person& person : sample.people) mix_person(&all_, &person);
+    for (const dmrp::Contact& contact : sample.contacts) mix_contact(&all_, &contact);
+    for (const dmrp::Call& call : sample.calls) mix_call(&all_, &call);
+    for (const dmrp::RobotEvent& event : sample.events) mix_robot_event(&all_, &event);
+    for (const dmrp::Route& route : sample.routes) mix_route(&all_, &route);
   }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {
     mix(&all_, end.ending), mix_time(&all_, end.t_ns);
     for (std::size_t i = 0; i < end.robots.size(); ++i) {
-      const dmrp::RobotEnd& robot = end.robots[i];
-      mix(&all_, robot.state), mix(&all_, robot.failure), mix_time(&all_, robot.arrival_ns);
-      mix(&all_, robot.visits), mix(&all_, robot.culprit);
+      mix_robot_end(&all_, &end.robots[i]);
       sink.robot("mixed", i, mixed_value(&all_));
     }
     sink.system("mixed", mixed_value(&all_));
   }
 
  private:
-  void mix_plan(const dmrp_plan* c) {
-    if (!c) return;
-    const dmrp::Plan plan(*c);
-    mix(&all_, static_cast<double>(plan->revision)), mix_time(&all_, plan->from_ns), mix(&all_, plan->status);
-    mix_time(&all_, plan->step_duration_ns);
-    for (std::size_t i = 0; i < plan.size(); ++i) mix_path(all_, plan.path(i));
-    for (const dmrp::Statistic& statistic : plan.statistics())
-      mix_text(&all_, statistic.name), mix(&all_, statistic.value);
-  }
   mixed all_ = {0.0};
 };
 

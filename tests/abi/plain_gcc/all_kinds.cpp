@@ -133,7 +133,9 @@ class Measure final : public dmrp::Metric {
     return dmrp::Descriptor("org.example.metric", "Metric", "1.0.0")
         .value("length", "m", dmrp::Direction::lower_is_better, dmrp::Subjects::system_and_robots, "a length");
   }
-  void begin(const dmrp_plan* plan) override { length_ = plan ? toolkit::length(dmrp::Plan(*plan).path(0)) : 0.0; }
+  void begin(const dmrp::MetricTrial& trial) override {
+    length_ = trial.plan ? toolkit::length(dmrp::Plan(*trial.plan).path(0)) : 0.0;
+  }
   void observe(const dmrp::Sample& sample) override { robots_ = sample.robots.size(); }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {
     sink.system("length", length_ + static_cast<double>(end.t_ns));

@@ -59,5 +59,12 @@ std::int32_t create(const dmrp_entry*, const dmrp_host*, const char* id, const d
 
 }  // namespace
 
-DMRP_ENTRY = {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, init, deinit, plugin_count,
-              descriptor,         create};
+DMRP_ENTRY = {sizeof(dmrp_entry),
+              DMRP_TARGET_MINOR,
+              DMRP_TARGET_MINOR,
+              DMRP_ABI_DRAFT,
+              init,
+              deinit,
+              plugin_count,
+              descriptor,
+              create};

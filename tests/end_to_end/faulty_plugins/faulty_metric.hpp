@@ -39,7 +39,7 @@ class FaultyMetric final : public dmrp::Metric {
         .value("test_" + name(), "1", dmrp::Direction::none, dmrp::Subjects::system, "number of samples");
   }
 
-  void begin(const dmrp_plan*) override {
+  void begin(const dmrp::MetricTrial&) override {
     samples_ = 0;
     if (fault == MetricFault::throw_in_begin) throw std::runtime_error("thrown on purpose");
     // a fault in the first trial of the process only: it recovers by start() and begin()

@@ -18,7 +18,7 @@ Descriptor Bottleneck::describe() {
              "people who pass the bottleneck per second and metre of its width");
 }
 
-void Bottleneck::begin(const dmrp_plan*) {
+void Bottleneck::begin(const dmrp::MetricTrial&) {
   before_ = rectangle_of(before_lower_m, before_upper_m);
   behind_ = rectangle_of(behind_lower_m, behind_upper_m);
   exit_ = rectangle_of(exit_lower_m, exit_upper_m);

@@ -35,7 +35,7 @@ class Bottleneck final : public Metric {
       param("exit_upper_m", std::vector<double>{1.0, 1.0}).unit("m").doc("upper right corner");
   Param<double> interval_s = param("interval_s", 1.0).unit("s").range(0.1, 10.0).doc("speeds are means over this time");
 
-  void begin(const dmrp_plan* plan) override;
+  void begin(const dmrp::MetricTrial& trial) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 

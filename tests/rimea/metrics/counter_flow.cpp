@@ -16,7 +16,7 @@ Descriptor CounterFlow::describe() {
       .value("lane_order", "1", Direction::none, Subjects::system, "0: no lanes, 1: rows of one direction each");
 }
 
-void CounterFlow::begin(const dmrp_plan*) {
+void CounterFlow::begin(const dmrp::MetricTrial&) {
   area_ = rectangle_of(lower_m, upper_m);
   people_ = relative_speeds_ = orders_ = random_orders_ = 0.0;
 }

@@ -13,7 +13,7 @@ Descriptor Evacuation::describe() {
       .value("people_left_behind", "1", Direction::lower_is_better, Subjects::system, "people present at the end");
 }
 
-void Evacuation::begin(const dmrp_plan*) {
+void Evacuation::begin(const dmrp::MetricTrial&) {
   people_ = 0;
   deserted_s_ = undefined;
 }

@@ -10,7 +10,7 @@ namespace dmrp::rimea {
 class Evacuation final : public Metric {
  public:
   static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
+  void begin(const dmrp::MetricTrial& trial) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 

@@ -15,7 +15,7 @@ Descriptor FundamentalDiagram::describe() {
              "density times speed (1/s where the extent is a length)");
 }
 
-void FundamentalDiagram::begin(const dmrp_plan*) {
+void FundamentalDiagram::begin(const dmrp::MetricTrial&) {
   area_ = rectangle_of(lower_m, upper_m);
   walking_speeds_.clear();
   intervals_ = people_ = speeds_ = speed_count_ = 0.0;

@@ -25,7 +25,7 @@ class FundamentalDiagram final : public Metric {
   Param<double> from_s = param("from_s", 10.0).unit("s").range(0.0, 1e6).doc("the measurement begins at this time");
   Param<double> interval_s = param("interval_s", 1.0).unit("s").range(0.1, 10.0).doc("speeds are means over this time");
 
-  void begin(const dmrp_plan* plan) override;
+  void begin(const dmrp::MetricTrial& trial) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 

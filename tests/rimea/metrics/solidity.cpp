@@ -22,7 +22,7 @@ Descriptor Solidity::describe() {
              "how deep two bodies were in each other, at most");
 }
 
-void Solidity::begin(const dmrp_plan*) {
+void Solidity::begin(const dmrp::MetricTrial&) {
   outside_.clear();
   wall_overlap_m_ = people_overlap_m_ = 0.0;
 }

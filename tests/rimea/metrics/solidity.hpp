@@ -13,7 +13,7 @@ namespace dmrp::rimea {
 class Solidity final : public Metric {
  public:
   static Descriptor describe();
-  void begin(const dmrp_plan* plan) override;
+  void begin(const dmrp::MetricTrial& trial) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 

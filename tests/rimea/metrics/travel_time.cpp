@@ -14,7 +14,7 @@ Descriptor TravelTime::describe() {
              "from the line x = from_x_m to the line x = to_x_m; system: the mean of all who crossed both");
 }
 
-void TravelTime::begin(const dmrp_plan*) {
+void TravelTime::begin(const dmrp::MetricTrial&) {
   walks_.clear();
 }
 

@@ -15,7 +15,7 @@ class TravelTime final : public Metric {
   Param<double> from_x_m = param("from_x_m", 0.0).unit("m").doc("the time begins at this x");
   Param<double> to_x_m = param("to_x_m", 1.0).unit("m").doc("and ends at this one");
 
-  void begin(const dmrp_plan* plan) override;
+  void begin(const dmrp::MetricTrial& trial) override;
   void observe(const Sample& sample) override;
   void finish(const TrialEnd& end, MetricSink& sink) override;
 

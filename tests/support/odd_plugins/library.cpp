@@ -72,11 +72,12 @@ Kind kinds[] = {
 
 const void* table_of(const Kind& kind, dmrp_instance& self) {
   const int extra = self.extra("table");
-  if (extra == 0) return kind.table;
+  if (extra == 0 && !self.is("reserved table")) return kind.table;
   self.table.fill(unknown_byte);
   std::memcpy(self.table.data(), kind.table, kind.table_size);
   const auto size = static_cast<std::uint32_t>(static_cast<int>(kind.table_size) + extra);
-  std::memcpy(self.table.data(), &size, sizeof(size));
+  const std::uint32_t begin[] = {size, self.is("reserved table") ? 7u : 0u};
+  std::memcpy(self.table.data(), begin, sizeof(begin));
   return self.table.data();
 }
 
@@ -94,6 +95,7 @@ std::int32_t create(const dmrp_entry*, const dmrp_host* host, const char* id, co
     out->start = &start;
     out->destroy = &destroy;
     out->trial_end = &trial_end;
+    out->reserved = self->is("reserved plugin") ? 7 : 0;
     if (status > DMRP_WARNING) return status;
     out->self = self.get();
     living[out->self] = std::move(self);

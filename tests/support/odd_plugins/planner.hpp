@@ -33,6 +33,6 @@ inline std::int32_t plan(dmrp_instance* self, const dmrp_planning_problem* probl
   return self->status_of("plan");
 }
 
-inline constexpr dmrp_global_planner planner_table = {sizeof(dmrp_global_planner), 0, &plan, nullptr};
+inline constexpr dmrp_global_planner planner_table = {sizeof(dmrp_global_planner), 0, &plan};
 
 }  // namespace dmrp::test

@@ -337,7 +337,6 @@ class SyntheticTrial {
       c.event_count = static_cast<std::uint32_t>(stored.events.size());
       c.event_stride = sizeof(Longer<dmrp_robot_event>);
       c.route_stride = sizeof(dmrp_route);
-      c.task_event_stride = sizeof(dmrp_task_event);
       use(c);
     }
   }
@@ -374,8 +373,8 @@ class SyntheticTrial {
       std::make_unique<dmrp_limits>(dmrp_limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
   std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
-  std::unique_ptr<dmrp_grid> planning_grid_ = std::make_unique<dmrp_grid>(
-      dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr, nullptr});
+  std::unique_ptr<dmrp_grid> planning_grid_ =
+      std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
   std::vector<float> clearance_;

@@ -32,6 +32,9 @@ class Descriptor {
 
   Descriptor& vendor(std::string text) { return vendor_ = std::move(text), *this; }
   Descriptor& license(std::string spdx) { return license_ = std::move(spdx), *this; }
+  Descriptor& url(std::string home) { return url_ = std::move(home), *this; }
+  Descriptor& manual_url(std::string manual) { return manual_url_ = std::move(manual), *this; }
+  Descriptor& features(std::vector<std::string> words) { return features_ = std::move(words), *this; }
   Descriptor& summary(std::string line) { return summary_ = std::move(line), *this; }
   Descriptor& source(std::string paper) { return source_ = std::move(paper), *this; }
 
@@ -68,8 +71,8 @@ class Descriptor {
     Subjects subjects;
     std::uint32_t wall_clock, curve;
   };
-  std::string id_, name_, version_, vendor_, license_, summary_, source_;
-  std::vector<std::string> needed_, uses_;
+  std::string id_, name_, version_, vendor_, license_, url_, manual_url_, summary_, source_;
+  std::vector<std::string> features_, needed_, uses_;
   std::vector<Value> values_;
   std::uint32_t connectivity_ = DMRP_CONNECTIVITY_NONE;
   std::uint32_t flags_ = 0;
@@ -85,6 +88,8 @@ class PublishedDescriptor {
       : descriptor_(std::move(descriptor)), parameters_(std::move(parameters)) {
     publish_parameters();
     publish_values();
+    features_ = pointers(descriptor_.features_);
+    features_.push_back(nullptr);
     needed_ = pointers(descriptor_.needed_);
     uses_ = pointers(descriptor_.uses_);
 
@@ -95,8 +100,11 @@ class PublishedDescriptor {
     c_.version = descriptor_.version_.c_str();
     c_.vendor = descriptor_.vendor_.c_str();
     c_.license = descriptor_.license_.c_str();
+    c_.url = descriptor_.url_.c_str();
+    c_.manual_url = descriptor_.manual_url_.c_str();
     c_.summary = descriptor_.summary_.c_str();
     c_.source = descriptor_.source_.c_str();
+    c_.features = features_.data();
     c_.needed = needed_.data();
     c_.needed_count = static_cast<std::uint32_t>(needed_.size());
     c_.uses = uses_.data();
@@ -172,7 +180,7 @@ class PublishedDescriptor {
   std::vector<std::vector<const char*>> choices_, texts_;
   std::vector<dmrp_param_spec> specs_;
   std::vector<dmrp_metric_value_spec> values_;
-  std::vector<const char*> needed_, uses_;
+  std::vector<const char*> features_, needed_, uses_;
   dmrp_planner_traits planner_{};
   dmrp_controller_traits controller_{};
   dmrp_metric_traits metric_{};

@@ -21,7 +21,6 @@ struct PlanningProblem {
         step_duration_ns(c.step_duration_ns),
         time_budget_ns(c.time_budget_ns),
         window_steps(c.window_steps),
-        committed_until_ns(c.committed_until_ns),
         grid(*c.grid),
         robots(c.robots, c.robot_count, c.robot_stride),
         in_force(c.in_force, c.in_force_count, c.in_force_stride) {}
@@ -32,7 +31,6 @@ struct PlanningProblem {
   std::int64_t step_duration_ns;
   std::int64_t time_budget_ns;
   std::uint32_t window_steps;  // 0: the whole way
-  std::int64_t committed_until_ns;
   const Grid& grid;
   Span<PlanningRobot> robots;
   Span<dmrp_path> in_force;  // empty for the first plan; Path(in_force[i]) views one
@@ -71,70 +69,14 @@ class GlobalPlanner : public Plugin {
   virtual Status plan(const PlanningProblem& problem, PlanSink& sink) = 0;
 
   DMRP_LOCAL static constexpr std::uint32_t interface_kind = DMRP_KIND_GLOBAL_PLANNER;
-  static constexpr dmrp_global_planner interface_table() {
-    return {sizeof(dmrp_global_planner), 0, &call_plan, nullptr};
-  }
+  static constexpr dmrp_global_planner interface_table() { return {sizeof(dmrp_global_planner), 0, &call_plan}; }
 
- protected:
+ private:
   static std::int32_t call_plan(dmrp_instance* self, const dmrp_planning_problem* problem, dmrp_plan_sink* sink) {
     auto& planner = detail::from_instance<GlobalPlanner>(self);
     return PluginAccess::guarded(planner, [&] {
       PlanSink out(sink);
       return planner.plan(PlanningProblem(*problem), out);
-    });
-  }
-};
-
-using Task = dmrp_task;
-
-inline Span<Goal> errands(const Task& task) {
-  return {task.errands, task.errand_count, task.errand_stride};
-}
-
-// dmrp_assignment with spans for arrays. Valid until assign() returns.
-struct Assignment {
-  explicit Assignment(const dmrp_assignment& c)
-      : now_ns(c.now_ns),
-        grid(*c.grid),
-        robots(c.robots, c.robot_count, c.robot_stride),
-        tasks(c.tasks, c.task_count, c.task_stride) {}
-
-  std::int64_t now_ns;
-  const Grid& grid;
-  Span<PlanningRobot> robots;
-  Span<Task> tasks;  // open, in order of release
-};
-
-class AssignmentSink {
- public:
-  explicit AssignmentSink(dmrp_assignment_sink* c) : c_(c) {}
-
-  void give(std::uint32_t robot, std::uint64_t task) {
-    const std::int32_t status = c_->give(c_, robot, task);
-    if (status == DMRP_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (status != DMRP_OK) throw std::logic_error("the host refused a task for robot " + std::to_string(robot));
-  }
-
- private:
-  dmrp_assignment_sink* c_;
-};
-
-// A planner that also gives open tasks to robots.
-class AssigningPlanner : public GlobalPlanner {
- public:
-  virtual Status assign(const Assignment& problem, AssignmentSink& sink) = 0;
-
-  DMRP_LOCAL static constexpr std::uint32_t interface_flags = DMRP_FLAG_ASSIGNS;
-  static constexpr dmrp_global_planner interface_table() {
-    return {sizeof(dmrp_global_planner), 0, &call_plan, &call_assign};
-  }
-
- private:
-  static std::int32_t call_assign(dmrp_instance* self, const dmrp_assignment* problem, dmrp_assignment_sink* sink) {
-    auto& planner = detail::from_instance<AssigningPlanner>(self);
-    return PluginAccess::guarded(planner, [&] {
-      AssignmentSink out(sink);
-      return planner.assign(Assignment(*problem), out);
     });
   }
 };

@@ -44,8 +44,15 @@ template <class Unit, class... Plugins>
 class Library {
  public:
   static constexpr dmrp_entry entry() {
-    return {sizeof(dmrp_entry), DMRP_ABI_MINOR, DMRP_TARGET_MINOR, DMRP_ABI_DRAFT, &init, &deinit, &count,
-            &descriptor,        &create};
+    return {sizeof(dmrp_entry),
+            DMRP_TARGET_MINOR,
+            DMRP_TARGET_MINOR,
+            DMRP_ABI_DRAFT,
+            &init,
+            &deinit,
+            &count,
+            &descriptor,
+            &create};
   }
 
  private:

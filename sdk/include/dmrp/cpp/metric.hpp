@@ -17,13 +17,8 @@ using Contact = dmrp_contact;
 using Call = dmrp_call;
 using RobotEvent = dmrp_robot_event;
 using Route = dmrp_route;
-using TaskEvent = dmrp_task_event;
 using Statistic = dmrp_statistic;
 using Subject = dmrp_subject;
-
-inline Span<Goal> errands(const TaskEvent& event) {
-  return {event.errands, event.errand_count, event.errand_stride};
-}
 
 // A value that is undefined for this trial: NULL in the results.
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
@@ -42,6 +37,13 @@ class Plan {
   const dmrp_plan* c_;
 };
 
+// What is known before the first sample.
+struct MetricTrial {
+  explicit MetricTrial(const dmrp_metric_trial& c) : plan(c.plan) {}
+
+  const dmrp_plan* plan;  // the first; nullptr if planning failed or there are no robots. Valid until finish() returns
+};
+
 // dmrp_sample with spans. Valid until observe() returns.
 struct Sample {
   explicit Sample(const dmrp_sample& c)
@@ -54,8 +56,7 @@ struct Sample {
         contacts(c.contacts, c.contact_count, c.contact_stride),
         calls(c.calls, c.call_count, c.call_stride),
         events(c.events, c.event_count, c.event_stride),
-        routes(c.routes, c.route_count, c.route_stride),
-        task_events(c.task_events, c.task_event_count, c.task_event_stride) {}
+        routes(c.routes, c.route_count, c.route_stride) {}
 
   std::int64_t t_ns;
   std::int64_t dt_ns;
@@ -66,8 +67,7 @@ struct Sample {
   Span<Contact> contacts;
   Span<Call> calls;
   Span<RobotEvent> events;
-  Span<Route> routes;           // Path(*routes[i].path) views one
-  Span<TaskEvent> task_events;  // errands(task_events[i]) views those of one
+  Span<Route> routes;  // Path(*routes[i].path) views one
 };
 
 enum class Severity : std::uint32_t {
@@ -137,9 +137,8 @@ class MetricSink {
 
 class Metric : public Plugin {
  public:
-  // `plan` is the first plan, nullptr if planning failed. Throw to report an error, or Unsupported if the metric has no
-  // values for this trial.
-  virtual void begin(const dmrp_plan* plan) = 0;
+  // Throw to report an error, or Unsupported if the metric has no values for this trial.
+  virtual void begin(const MetricTrial& trial) = 0;
   virtual void observe(const Sample& sample) = 0;
   virtual void finish(const TrialEnd& end, MetricSink& sink) = 0;
 
@@ -155,7 +154,7 @@ class Metric : public Plugin {
     return PluginAccess::guarded(metric, [&] { return body(metric), Status::ok; });
   }
   static std::int32_t call_begin(dmrp_instance* self, const dmrp_metric_trial* trial) {
-    return call(self, [&](Metric& metric) { metric.begin(trial->plan); });
+    return call(self, [&](Metric& metric) { metric.begin(MetricTrial(*trial)); });
   }
   static std::int32_t call_observe(dmrp_instance* self, const dmrp_sample* sample) {
     return call(self, [&](Metric& metric) { metric.observe(Sample(*sample)); });

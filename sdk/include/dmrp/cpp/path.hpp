@@ -2,12 +2,26 @@
 // cpp/path.hpp: a path as a span of waypoints, and what is said of it; the contract is in ../path.h.
 #pragma once
 
+#include <limits>
+
 #include "../path.h"
 #include "span.hpp"
 
 namespace dmrp {
 
 using Waypoint = dmrp_waypoint;
+
+// A waypoint whose later fields are absent; any heading unless `theta` says one.
+inline Waypoint waypoint(double x, double y, std::int64_t t_ns, std::uint32_t goal_index,
+                         double theta = std::numeric_limits<double>::quiet_NaN()) {
+  Waypoint made{};
+  made.x = x;
+  made.y = y;
+  made.theta = theta;
+  made.t_ns = t_ns;
+  made.goal_index = goal_index;
+  return made;
+}
 
 // Valid as long as the waypoints of the dmrp_path.
 class Path : public Span<Waypoint> {

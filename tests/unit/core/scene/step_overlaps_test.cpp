@@ -23,8 +23,7 @@ struct Hall {
   std::vector<std::uint8_t> free = std::vector<std::uint8_t>(side * side, 1);
   std::vector<std::uint8_t> edges = std::vector<std::uint8_t>(side * side, 0xff);
   std::vector<float> clearance = std::vector<float>(side * side, 5.0f);
-  dmrp_grid grid{sizeof(dmrp_grid), side,   side, 0, cell_m, {0.0, 0.0}, free.data(), edges.data(),
-                 clearance.data(),  nullptr};
+  dmrp_grid grid{sizeof(dmrp_grid), side, side, 0, cell_m, {0.0, 0.0}, free.data(), edges.data(), clearance.data()};
 };
 
 StepOverlaps::Robot disc(const Hall& hall, double radius_m) {

@@ -52,13 +52,10 @@ struct ExampleWorld {
   std::array<std::uint8_t, 6> free{1, 0, 1, 1, 1, 0};
   std::array<std::uint8_t, 6> edges{0x01, 0, 0xff, 7, 9, 0};
   std::array<float, 6> clearance{0.5F, 0.0F, 1.25F, 0.1F, 3.0F, std::numeric_limits<float>::infinity()};
-  std::array<std::uint16_t, 48> edge_cost{};
-  dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data(),
-                     edge_cost.data()};
+  dmrp_grid planning{sizeof(dmrp_grid), 3, 2, 0, 2.0, {0.0, 1.0}, free.data(), edges.data(), clearance.data()};
   dmrp_world world{};
 
   ExampleWorld() {
-    for (std::size_t i = 0; i < edge_cost.size(); ++i) edge_cost[i] = static_cast<std::uint16_t>(1000 * i);
     world.struct_size = sizeof(dmrp_world);
     world.person_count = 2;
     world.person_radius_m = 0.35;
@@ -119,8 +116,6 @@ struct ExampleSample {
   std::array<dmrp_contact, 2> contacts{};
   std::array<dmrp_call, 3> calls{};
   std::array<dmrp_robot_event, 3> events{};
-  std::array<dmrp_goal, 2> errands{};
-  std::array<dmrp_task_event, 2> task_events{};
   std::vector<dmrp_waypoint> course;
   std::array<dmrp_path, 2> paths{};
   std::array<dmrp_route, 2> routes{};
@@ -153,10 +148,6 @@ struct ExampleSample {
     events[0] = {DMRP_ROBOT_EVENT_CLASS, 0, k * 20'000'000, DMRP_CLASS_HELD, 1};
     events[1] = {DMRP_ROBOT_EVENT_CLIPPED, 1, k * 20'000'000 - 10, 0, DMRP_NOBODY};
     events[2] = {77, 1, k * 20'000'000, 0xffffffff, 0};  // of a kind that is not known
-    errands[0] = {{x, 2.5, std::nan("")}, 0.2, 0.3, 0.1, 500'000'000};
-    errands[1] = {{2.5, x, 0.25}, 0.2, 0.3, 0.1, 0};
-    task_events[0] = {k, 8, DMRP_TASK_RELEASED, DMRP_NOBODY, 0, 2, sizeof(dmrp_goal), 0, errands.data()};
-    task_events[1] = {k, 7, DMRP_TASK_VISITED, 1, 2, 1, sizeof(dmrp_goal), 0, errands.data()};
     add_routes(k);
     sample.struct_size = sizeof(dmrp_sample);
     sample.control_tick = k % 5 == 0;
@@ -178,9 +169,6 @@ struct ExampleSample {
     sample.events = events.data();
     sample.event_count = k % 4 == 0 ? 3 : 0;
     sample.event_stride = sizeof(dmrp_robot_event);
-    sample.task_events = task_events.data();
-    sample.task_event_count = k % 4 == 0 ? 2 : 0;
-    sample.task_event_stride = sizeof(dmrp_task_event);
   }
   ExampleSample(const ExampleSample&) = delete;
   ExampleSample& operator=(const ExampleSample&) = delete;

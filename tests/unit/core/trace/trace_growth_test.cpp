@@ -122,11 +122,6 @@ class OtherVersion {
           copy(route, out, 4 * 4);
           elements(route, out);
         });
-      for (std::uint32_t events = copy_count(in, out); events > 0; --events)
-        block(in, out, [&](RecordCursor& event) {
-          copy(event, out, 2 * 8 + 3 * 4);
-          elements(event, out);
-        });
     }
     if (kind == TraceRecordKind::end) {
       copy(in, out, 4 + 8);

@@ -135,6 +135,16 @@ TEST_CASE("what is shorter than v1.0's is refused") {
     metric.struct_size -= 8;
     CHECK(OddLibrary::refusal() == "has a descriptor that is shorter than v1.0's");
   }
+  SECTION("a reserved field of the descriptor") {
+    metric.reserved = 7;
+    CHECK(OddLibrary::refusal() == "the descriptor of 'test.odd.metric' has 7 in a reserved field, which must be 0");
+  }
+  SECTION("a reserved field of a parameter") {
+    dmrp_param_spec spec = *metric.params;
+    spec.reserved = 7;
+    metric.params = &spec;
+    CHECK(OddLibrary::refusal() == "parameter 'does' has 7 in a reserved field, which must be 0");
+  }
   const std::string odd_array = " that are shorter than v1.0's, or whose stride is no multiple of 8";
   SECTION("its parameters") {
     metric.param_stride += GENERATE(-8u, 4u);
@@ -169,7 +179,7 @@ TEST_CASE("a library of another draft, or for a newer host, gets one line") {
   SECTION("draft 1") {
     odd.entry().abi_draft = 1;
     odd.entry().struct_size = 48;  // whatever else that draft had
-    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 3: build it again");
+    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 4: build it again");
   }
   SECTION("a newer host") {
     odd.entry().min_host_minor = 3;

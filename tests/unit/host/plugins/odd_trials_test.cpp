@@ -214,6 +214,14 @@ TEST_CASE("a central controller brakes one robot, or is at fault for one") {
   CHECK(breach.what() == std::string("gave the status 99, which status.h does not allow a command"));
 }
 
+TEST_CASE("a plugin or a table with a reserved field that is set is refused") {
+  OddStage plugin(planner, "reserved plugin");
+  check_fault(plugin, fault_kind::abi_breach, "create", "returned OK with 7 in dmrp_plugin.reserved, which must be 0");
+  OddStage table(controller, "reserved table");
+  check_fault(table, fault_kind::abi_breach, "create",
+              "returned OK with 7 in dmrp_plugin.table->reserved, which must be 0");
+}
+
 TEST_CASE("a path with a reserved field or an unknown flag that is set is refused") {
   OddStage waypoint(planner, "reserved waypoint");
   check_fault(waypoint, fault_kind::error_status, "plan", "a reserved field of its waypoints is 7, not 0");

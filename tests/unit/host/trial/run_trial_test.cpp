@@ -171,6 +171,24 @@ TEST_CASE("no plan is a result: nothing moves, everything is measured") {
   CHECK(sample->events[1].robot == 1);
 }
 
+TEST_CASE("a metric gets no people, calls and routes that it does not declare") {
+  CheckedStage stage;
+  stage.experiment.scenarios[0].scenario.tracks = {{{{0, {1.0, 5.0}}, {2'000'000'000, {3.0, 5.0}}}}};
+  stage.run();
+  CHECK(system_of(stage.measured(), "of_channels") == 0.0);
+  std::size_t all = 0;
+  stage.reader->rewind();
+  while (const dmrp_sample* sample = stage.reader->next_sample())
+    all += sample->person_count + sample->call_count + sample->route_count;
+  CHECK(all > 100);
+  PluginUse use = stage.experiment.metrics[0];
+  use.info.channels = DMRP_CHANNEL_PEOPLE | DMRP_CHANNEL_CALLS | DMRP_CHANNEL_ROUTES;
+  InstancePool pool(stage.experiment.libraries, stage.guard, [](auto, const auto&, const auto&) {});
+  const MetricResult declared =
+      measure(*stage.reader, stage.variant->walking_grids, pool.get(use, DMRP_NO_ROBOT), use.info, 0, 1, 1'000'000'000);
+  CHECK(system_of(declared, "of_channels") == static_cast<double>(all));
+}
+
 TEST_CASE("the processor time of planning leaves out what the planner waits for") {
   CheckedStage stage(1, "sleep");
   stage.run();
@@ -260,7 +278,7 @@ TEST_CASE("a metric's values are taken as they are declared") {
   const MetricResult result = stage.measured();
   CHECK(system_of(result, "samples") == static_cast<double>(stage.reader->sample_count()));
   CHECK(system_of(result, "refused") == 12.0);
-  CHECK(result.values.size() == 6);
+  CHECK(result.values.size() == 7);
   REQUIRE(result.events.size() == 1);
   CHECK(result.events[0].metric == "samples");
   CHECK(result.events[0].robots == std::vector<std::uint32_t>{0, 1});

@@ -183,22 +183,26 @@ class SinkMetric final : public dmrp::Metric {
                "how many values, of those that should be")
         .value("curve", "1", dmrp::Direction::none, dmrp::Subjects::system, "squares")
         .curve()
-        .value("undefined", "1", dmrp::Direction::none, dmrp::Subjects::system, "never there");
+        .value("undefined", "1", dmrp::Direction::none, dmrp::Subjects::system, "never there")
+        .value("of_channels", "1", dmrp::Direction::none, dmrp::Subjects::system, "what channels gave, in all samples");
   }
   dmrp::Param<bool> silent = param("silent", false).doc("says nothing of `undefined`");
 
-  void begin(const dmrp_plan* plan) override {
+  void begin(const dmrp::MetricTrial& trial) override {
     samples_ = 0;
-    planned_ = plan != nullptr;
+    of_channels_ = 0;
+    planned_ = trial.plan != nullptr;
   }
   void observe(const dmrp::Sample& sample) override {
     expect((sample.plan != nullptr) == planned_, "samples have the plan that there is");
     expect(sample.dt_ns == (samples_ == 0 ? 0 : world()->step_ns), "dt");
     expect(sample.t_ns == samples_ * world()->step_ns, "a sample a step");
+    of_channels_ += sample.people.size() + sample.calls.size() + sample.routes.size();
     ++samples_;
   }
   void finish(const dmrp::TrialEnd&, dmrp::MetricSink& sink) override {
     sink.system("samples", static_cast<double>(samples_));
+    sink.system("of_channels", static_cast<double>(of_channels_));
     sink.robot("samples", 1, 1.0);
     sink.curve("curve", 1.0, 1.0);
     sink.curve("curve", 2.0, 4.0);
@@ -237,6 +241,7 @@ class SinkMetric final : public dmrp::Metric {
 
  private:
   std::int64_t samples_ = 0;
+  std::size_t of_channels_ = 0;
   bool planned_ = false;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/trial/plans/planning.hpp"
+
 namespace {
 
 using namespace dmrp::host;
@@ -422,6 +424,28 @@ TEST_CASE("a partial path need not reach the goal, where a window was asked for"
   CHECK(error_of(c).empty());
   c.paths[0][1].x += 0.3;  // the rest is as of every path
   CHECK_FALSE(error_of(c).empty());
+}
+
+TEST_CASE("a window ends in time, however many waypoints a path has") {
+  dmrp_planning_problem problem{};
+  problem.effective_from_ns = 500;
+  problem.step_duration_ns = 1000;
+  problem.window_steps = 10;
+  const auto path_with = [](std::int64_t every_ns, std::int64_t to_ns) {
+    std::vector<dmrp_waypoint> path;
+    for (std::int64_t t_ns = 500; t_ns <= to_ns; t_ns += every_ns)
+      path.push_back({static_cast<double>(t_ns), 0.0, 0.0, t_ns, 0, 0});
+    return path;
+  };
+  PlannerAnswer answer;
+  answer.paths = {path_with(100, 18'500), path_with(1000, 18'500), path_with(9000, 18'500), path_with(1000, 10'500)};
+  cut_to_window(problem, answer);
+  CHECK(answer.paths[0].back().t_ns == 10'500);
+  CHECK(answer.paths[0].size() == 101);
+  CHECK(answer.paths[1].back().t_ns == 10'500);
+  CHECK(answer.paths[2].back().t_ns == 9'500);
+  CHECK(answer.paths[3].size() == 11);
+  CHECK(answer.partial == std::vector<bool>{true, true, true, false});
 }
 
 TEST_CASE("a partial path heads for a later goal only after it has been at the one before") {
