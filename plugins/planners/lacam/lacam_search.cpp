@@ -3,21 +3,112 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <queue>
 #include <tuple>
 #include <utility>
 
-#include "planners/lacam/least_sum.hpp"
+#include "planners/mapf/stop_signal.hpp"
 
 namespace dmrp::planners {
 
 namespace {
+
+// The way with the least sum of costs in a graph of configurations.
+//
+// The cost of a robot is the time from which it rests for good. That depends on what comes later, so the search goes
+// back in time, from the goal: its states are a configuration and the set of robots that do not rest any more. Each
+// step back costs one for each robot in the set. A* with the cost from the start in which rest that is broken later
+// costs nothing: it is never higher.
+class LeastSum {
+ public:
+  struct Place {
+    std::int64_t least_before = 0;    // lower bound of the cost from the start to here
+    std::vector<bool> is_underway;    // by robot: not at the end of its tour
+    std::vector<std::int32_t> after;  // places one step later
+  };
+
+  // Looks for ways that cost less than `limit`.
+  LeastSum(std::int64_t limit, StopSignal& stop) : limit_(limit), stop_(stop) {}
+
+  // Place 0 is the start.
+  void add(Place place) { places_.push_back(std::move(place)); }
+
+  // The places from the start to the goal; empty if no way costs less than the limit, or if `stop` was raised.
+  std::vector<std::int32_t> run(std::int32_t goal);
+
+ private:
+  struct State {
+    std::int32_t place;
+    std::vector<bool> underway;  // robots that move or wait at some time from here on
+    std::int64_t cost;           // from here to the goal
+    std::int32_t next;           // the state one step later, or -1
+  };
+  using Key = std::pair<std::int32_t, std::vector<bool>>;
+
+  void reach(std::int32_t place, std::vector<bool> underway, std::int64_t cost, std::int32_t next);
+
+  std::int64_t limit_;
+  StopSignal& stop_;
+  std::vector<Place> places_;
+  std::vector<State> states_;
+  std::map<Key, std::int32_t> known_;
+  std::vector<std::pair<std::int64_t, std::int32_t>> open_;  // a heap by cost in all
+};
 
 // Nodes of the search take at most about so many bytes.
 constexpr std::size_t memory_limit = std::size_t{2} << 30;
 
 // After a known configuration was found again, the search continues there; once in so many times at the start.
 constexpr std::uint64_t rare_restart = 1000;
+
+void LeastSum::reach(std::int32_t place, std::vector<bool> underway, std::int64_t cost, std::int32_t next) {
+  const std::int64_t in_all = cost + places_[static_cast<std::size_t>(place)].least_before;
+  if (in_all >= limit_) return;
+  const auto id = static_cast<std::int32_t>(states_.size());
+  const auto [known, is_new] = known_.try_emplace({place, underway}, id);
+  if (!is_new) {
+    if (states_[static_cast<std::size_t>(known->second)].cost <= cost) return;
+    known->second = id;
+  }
+  states_.push_back({place, std::move(underway), cost, next});
+  open_.emplace_back(in_all, id);
+  std::push_heap(open_.begin(), open_.end(), std::greater<>());
+}
+
+std::vector<std::int32_t> LeastSum::run(std::int32_t goal) {
+  std::vector<std::vector<std::int32_t>> before(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    for (const std::int32_t after : places_[i].after)
+      before[static_cast<std::size_t>(after)].push_back(static_cast<std::int32_t>(i));
+
+  reach(goal, std::vector<bool>(places_[static_cast<std::size_t>(goal)].is_underway.size(), false), 0, -1);
+  while (!open_.empty() && !stop_.poll()) {
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    std::int32_t id = open_.back().second;
+    open_.pop_back();
+    const State state = states_[static_cast<std::size_t>(id)];
+    if (known_.at({state.place, state.underway}) != id) continue;  // a cheaper one is known
+    if (state.place == 0) {
+      std::vector<std::int32_t> way;
+      for (; id >= 0; id = states_[static_cast<std::size_t>(id)].next)
+        way.push_back(states_[static_cast<std::size_t>(id)].place);
+      return way;
+    }
+    const Place& here = places_[static_cast<std::size_t>(state.place)];
+    for (const std::int32_t earlier : before[static_cast<std::size_t>(state.place)]) {
+      const Place& from = places_[static_cast<std::size_t>(earlier)];
+      std::vector<bool> underway = state.underway;
+      std::int64_t step = 0;
+      for (std::size_t i = 0; i < underway.size(); ++i) {
+        underway[i] = underway[i] || here.is_underway[i] || from.is_underway[i];
+        step += underway[i] ? 1 : 0;
+      }
+      reach(earlier, std::move(underway), state.cost + step, id);
+    }
+  }
+  return {};
+}
 
 }  // namespace
 

@@ -11,9 +11,19 @@
 #include <vector>
 
 #include "planners/conflict_search/high_level/constraint_tree.hpp"
-#include "planners/conflict_search/high_level/search_context.hpp"
+#include "planners/conflict_search/low_level/mdd.hpp"
+#include "planners/conflict_search/symmetry/corridor.hpp"
 
 namespace dmrp::planners {
+
+// What a search and its two-agent sub-searches share. References only: everything must outlive the searches.
+struct SearchContext {
+  const Problem& problem;
+  const std::vector<TourTable>& tables;
+  CorridorReasoning& corridors;
+  MddCache& mdds;
+  StopSignal& stop;
+};
 
 // Two agents with conflicts.
 using AgentPair = std::pair<std::int32_t, std::int32_t>;
