@@ -8,7 +8,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <string>
 
-#include "controllers/teb/band_command.hpp"
+#include "controllers/teb/timed_elastic_band.hpp"
 
 namespace dmrp::controllers {
 
@@ -41,6 +41,55 @@ constexpr double easy_beyond_m = 0.15;
 
 // After this many consecutive cycles without a feasible band, the horizon shrinks less.
 constexpr int shrink_less_after = 10;
+
+// The mean velocity from the first pose to pose `poses`, bounded by the limits and by what the robot can reach within
+// one control period.
+Command first_command(const teb::TimedElasticBand& band, std::size_t poses, const Observation& now) {
+  const std::size_t last = std::min(poses, band.size() - 1);
+  double duration_s = 0.0;
+  for (std::size_t i = 0; i < last; ++i) duration_s += band.dt[i];
+  const Vec2 chord = band.position(last) - band.position(0);
+  const double distance_m = toolkit::norm(chord);
+  const double ahead = toolkit::dot(chord, toolkit::from_angle(band.theta[0]));
+  const double v = std::copysign(distance_m, ahead) / duration_s;
+  const double omega = toolkit::difference(band.theta[0], band.theta[last]) / duration_s;
+
+  const Limits& limits = now.limits;
+  const double period_s = seconds(now.dt_ns);
+  if (is_car_like(limits)) {
+    const double reached = toward(now.velocity.v_x, std::clamp(v, limits.v_min, limits.v_max), limits.a_max * period_s);
+    return steered(std::clamp(reached, limits.v_min, limits.v_max), v == 0.0 ? 0.0 : omega / v, limits);
+  }
+  Command command;
+  if (is_holonomic(limits)) {
+    const Vec2 wanted = toolkit::rotate(chord, -band.theta[0]) / duration_s;
+    const Vec2 bounded = {std::clamp(wanted.x, limits.v_min, limits.v_max),
+                          std::clamp(wanted.y, -limits.v_y_max, limits.v_y_max)};
+    const Vec2 reached = toward(Vec2{now.velocity.v_x, now.velocity.v_y}, bounded, limits.a_max * period_s);
+    command.v_x = std::clamp(reached.x, limits.v_min, limits.v_max);
+    command.v_y = std::clamp(reached.y, -limits.v_y_max, limits.v_y_max);
+  } else {
+    command.v_x = toward(now.velocity.v_x, std::clamp(v, limits.v_min, limits.v_max), limits.a_max * period_s);
+    command.v_x = std::clamp(command.v_x, limits.v_min, limits.v_max);
+  }
+  command.omega =
+      toward(now.velocity.omega, std::clamp(omega, -limits.omega_max, limits.omega_max), limits.alpha_max * period_s);
+  command.omega = std::clamp(command.omega, -limits.omega_max, limits.omega_max);
+  return command;
+}
+
+// The pose at a time, interpolated linearly between two poses; the last pose after the end.
+Pose pose_at(const teb::TimedElasticBand& band, double time_s) {
+  for (std::size_t i = 0; i < band.dt.size(); ++i) {
+    if (time_s < band.dt[i]) {
+      const double share = time_s / band.dt[i];
+      const Vec2 at = toolkit::lerp(band.position(i), band.position(i + 1), share);
+      return {at.x, at.y, toolkit::wrap(band.theta[i] + share * toolkit::difference(band.theta[i], band.theta[i + 1]))};
+    }
+    time_s -= band.dt[i];
+  }
+  return band.pose(band.size() - 1);
+}
 
 }  // namespace
 
@@ -133,7 +182,7 @@ Status Teb::drive(const Observation& now, const CostmapView& map, Command& comma
   planner_.plan(task(now, is_cut));
   while (planner_.best() && !is_feasible(*planner_.best(), now, footprint)) planner_.drop_best();
   if (planner_.best()) {
-    command = teb::first_command(*planner_.best(), parameters_.control_look_ahead_poses, now);
+    command = first_command(*planner_.best(), parameters_.control_look_ahead_poses, now);
     if (slow_down(command, now, footprint)) {
       infeasible_in_a_row_ = 0;
       annotate(*planner_.best());
@@ -241,7 +290,7 @@ bool Teb::is_feasible(const teb::TimedElasticBand& band, const Observation& now,
   double ahead_s = 0.0;
   for (std::size_t i = 0; i < last; ++i) {
     const double middle_s = ahead_s + 0.5 * band.dt[i];
-    if (!is_free(teb::pose_at(band, middle_s), middle_s, now, footprint)) return false;
+    if (!is_free(pose_at(band, middle_s), middle_s, now, footprint)) return false;
     ahead_s += band.dt[i];
     if (!is_free(band.pose(i + 1), ahead_s, now, footprint)) return false;
   }
@@ -320,7 +369,7 @@ void Teb::annotate(const teb::TimedElasticBand& best) const {
   std::array<Pose, 32> poses;
   const auto add = [&](const teb::TimedElasticBand& band, std::uint32_t role) {
     const double step_s = band.duration_s() / static_cast<double>(poses.size() - 1);
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = teb::pose_at(band, static_cast<double>(i) * step_s);
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_at(band, static_cast<double>(i) * step_s);
     annotations_.trajectory(role, poses, step_s);
   };
   for (std::size_t i = 0; i < planner_.size(); ++i)

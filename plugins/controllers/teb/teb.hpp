@@ -6,10 +6,40 @@
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/oscillation_detector.hpp"
 #include "controllers/motion/path_ahead.hpp"
+#include "controllers/motion/path_controller.hpp"
 #include "controllers/teb/class_planner.hpp"
-#include "controllers/teb/declared_parameters.hpp"
+#include "controllers/teb/parameters.hpp"
 
 namespace dmrp::controllers {
+
+namespace teb {
+
+// Declares the parameters to the host.
+class DeclaredParameters : public PathController {
+ protected:
+  // The values that the host has set; complete from start() on.
+  Parameters parameters() const {
+    Parameters values;
+#define NUMBER(name, value, unit, minimum, maximum, doc) values.name = name;
+#define COUNT(name, value, minimum, maximum, doc) values.name = static_cast<std::size_t>(*name);
+#define FLAG(name, value, doc) values.name = name;
+#define WEIGHT(name, value, doc) values.name = name;
+#include "controllers/teb/parameters.inc"
+    return values;
+  }
+
+ private:
+#define NUMBER(name, value, unit_of, minimum, maximum, doc_of) \
+  Param<double> name = param(#name, value).unit(unit_of).range(minimum, maximum).doc(doc_of);
+#define COUNT(name, value, minimum, maximum, doc_of) \
+  Param<std::int64_t> name = param(#name, value).unit("1").range(minimum, maximum).doc(doc_of);
+#define FLAG(name, value, doc_of) Param<bool> name = param(#name, value).doc(doc_of);
+#define WEIGHT(name, value, doc_of) \
+  Param<double> name = param(#name, value).unit("1").range(0.0, 1e5).doc("weight " doc_of);
+#include "controllers/teb/parameters.inc"
+};
+
+}  // namespace teb
 
 class Teb final : public teb::DeclaredParameters {
  public:

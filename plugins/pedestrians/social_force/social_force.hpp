@@ -9,9 +9,16 @@
 #include "pedestrians/crowd/groups.hpp"
 #include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
-#include "pedestrians/social_force/forces.hpp"
 
 namespace dmrp::pedestrians {
+
+// The shape of the interaction between two people.
+struct InteractionShape {
+  double lambda;   // weight of the relative velocity, compared with the direction to the other person
+  double gamma;    // range of the interaction per unit of that sum, m
+  double n;        // angular width of the turning force
+  double n_prime;  // angular width of the decelerating force
+};
 
 class SocialForce final : public CrowdModel {
  public:
