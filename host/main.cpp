@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "host/check/case_process.hpp"
-#include "host/commands/arguments.hpp"
 #include "host/commands/command.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
@@ -25,6 +24,7 @@
 #include "host/program/version.hpp"
 #include "host/terminal/colors.hpp"
 #include "host/terminal/mistake_text.hpp"
+#include "host/toml/nearest_name.hpp"
 #include "host/workers/worker.hpp"
 
 namespace {
@@ -55,6 +55,27 @@ std::string version_text() {
                      std::to_string(DMRP_ABI_MAJOR) + "." + std::to_string(DMRP_ABI_MINOR);
   if (DMRP_ABI_DRAFT > 0) text += ", draft " + std::to_string(DMRP_ABI_DRAFT);
   return text + ")";
+}
+
+// The arguments with a command or an option first. `EXPERIMENT.toml` means `run EXPERIMENT.toml`, also with options before
+// it, and `help COMMAND` means `COMMAND --help`. Throws InputError if the program has no such command.
+std::vector<std::string> arguments_with_command(const CLI::App& program, std::vector<std::string> arguments) {
+  if (arguments.empty()) return {"--help"};
+  const auto is_file = [](const std::string& argument) { return argument.ends_with(".toml"); };
+  if (arguments[0] == "help" && (arguments.size() == 1 || !arguments[1].starts_with("-"))) {
+    std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
+    arguments.back() = "--help";
+  } else if ((arguments[0].starts_with("-") || is_file(arguments[0])) &&
+             std::any_of(arguments.begin(), arguments.end(), is_file)) {
+    arguments.insert(arguments.begin(), "run");
+  }
+
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  const std::string& written = arguments.front();
+  if (written.starts_with("-") || std::find(names.begin(), names.end(), written) != names.end()) return arguments;
+  throw InputError("dmrp-host: there is no command '" + written + "'" + did_you_mean(written, names) +
+                   "; commands are " + join_names(names));
 }
 
 int run_main(int argc, char** argv) {

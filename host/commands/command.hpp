@@ -8,10 +8,33 @@
 #include <memory>
 #include <string>
 
-#include "host/commands/commands.hpp"
 #include "host/program/exit_status.hpp"
 
+// The commands of `dmrp-host`, in the order of its help. Each has a file, whose function add_COMMAND() registers it with
+// its options.
+#define DMRP_COMMANDS(COMMAND) \
+  COMMAND(run)                 \
+  COMMAND(validate)            \
+  COMMAND(plugins)             \
+  COMMAND(check)               \
+  COMMAND(draw)                \
+  COMMAND(video)               \
+  COMMAND(evaluate)            \
+  COMMAND(merge)               \
+  COMMAND(bundle)              \
+  COMMAND(verify)              \
+  COMMAND(compare)             \
+  COMMAND(export)              \
+  COMMAND(plan)                \
+  COMMAND(keys)                \
+  COMMAND(new)                 \
+  COMMAND(report)
+
 namespace dmrp::host {
+
+#define DMRP_DECLARE(name) void add_##name(CLI::App& app);
+DMRP_COMMANDS(DMRP_DECLARE)
+#undef DMRP_DECLARE
 
 // The end of a help text: an example, and the exit statuses.
 std::string help_footer(const std::string& example);

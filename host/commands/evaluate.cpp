@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: MIT
 // Measures the stored traces of a run, with the run's metrics or others.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "core/trace/trace_reader.hpp"
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/errors/machine_error.hpp"
 #include "host/evaluate/evaluation.hpp"
-#include "host/evaluate/measure_stored.hpp"
+#include "host/guests/command_guests.hpp"
+#include "host/guests/guest_end.hpp"
 #include "host/results/csv.hpp"
 #include "host/results/database.hpp"
 #include "host/results/trace_path.hpp"
+#include "host/results/trial_record.hpp"
+#include "host/trial/ask_metric.hpp"
+#include "host/trial/kept_trace.hpp"
 
 namespace dmrp::host {
 
@@ -20,11 +33,70 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct StoredTrial {
+  std::uint64_t id = 0;
+  std::uint64_t seed = 0;
+  fs::path trace;
+};
+
+// Receive the results in the order of the trials and, for each trial, of the metrics.
+struct MeasureSinks {
+  std::function<void(const StoredTrial&, const MetricResult&)> result;
+  std::function<void(const StoredTrial&, const std::string& text)> failure;  // of a metric or a trace; one line
+};
+
+// Measures stored traces in guests: a metric that crashes, hangs or takes all memory loses its own values of that trial
+// only.
+class Measurer {
+ public:
+  Measurer(const Evaluation& evaluation, const MeasureSinks& sinks)
+      : evaluation_(evaluation), sinks_(sinks), guests_(evaluation.libraries, evaluation.limits, DMRP_LOG_WARNING) {}
+
+  void measure(const StoredTrial& trial) {
+    try {
+      core::TraceRecords records(trial.trace);
+      KeptTrace kept({}, fs::temp_directory_path() / fmt::format("dmrp-evaluate-{}", getpid()));
+      while (const auto record = records.next()) kept.write(0, record->whole);
+      const std::uint32_t robots = core::TraceReader(kept.records()).world().robot_count;
+      guests_.begin_trial(trial.id, kept.spool_descriptor());
+      for (std::uint32_t i = 0; i < evaluation_.metrics.size(); ++i)
+        measure_metric(trial, {kept.in_memory(), nullptr, robots, trial.seed}, i);
+    } catch (const MachineError&) {
+      throw;
+    } catch (const std::exception& error) {
+      sinks_.failure(trial, fmt::format("{}: {}", trial.trace.string(), error.what()));
+    }
+  }
+
+ private:
+  void measure_metric(const StoredTrial& trial, const FinishedTrial& finished, std::uint32_t index) {
+    const PluginUse& use = evaluation_.metrics[index];
+    try {
+      const auto budget_ns = static_cast<std::int64_t>(evaluation_.limits.step_time_s * 1e9);
+      sinks_.result(trial, ask_metric(guests_.all(), use, index, finished, budget_ns));
+    } catch (const PluginFault& fault) {
+      sinks_.failure(trial, words_of(fault));
+      if (fault.fatal()) guests_.end(use.library);
+    }
+  }
+
+  const Evaluation& evaluation_;
+  const MeasureSinks& sinks_;
+  CommandGuests guests_;
+};
+
 struct EvaluateOptions {
   EvaluationChoice choice;
   std::vector<std::uint64_t> trials;  // empty: all
   fs::path csv;                       // empty: standard output
 };
+
+// Loads the libraries, creates the metrics and measures every trial as during the run. The metrics' warnings go to
+// standard error. Throws std::runtime_error if the libraries cannot be loaded, and MachineError.
+void measure_stored(const Evaluation& evaluation, const std::vector<StoredTrial>& trials, const MeasureSinks& sinks) {
+  Measurer measurer(evaluation, sinks);
+  for (const StoredTrial& trial : trials) measurer.measure(trial);
+}
 
 void print_note(const std::string& line) {
   fmt::print(stderr, "{}\n", line);

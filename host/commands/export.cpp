@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/picture/trial_picture.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -11,7 +15,6 @@
 #include "host/commands/figure_file.hpp"
 #include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/export/layout_tables.hpp"
 #include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
@@ -22,6 +25,7 @@
 #include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
+
 namespace {
 
 enum class ExportFormat { latex, csv, table, svg, thresholds, map };
@@ -38,6 +42,53 @@ struct ExportOptions {
   std::uint64_t trial = 0;      // map: the trial
   std::filesystem::path out;    // empty: standard output; figures also to a .png or .pdf
 };
+
+SummaryTableColumn parse_column(const nlohmann::json& json) {
+  SummaryTableColumn column;
+  column.metric = json.at("metric");
+  column.header = json.value("header", column.metric);
+  column.decimals = json.value("decimals", 2u);
+  column.spread = json.value("spread", "");
+  column.median = json.value("median", false);
+  return column;
+}
+
+bool several_models(std::span<const TrialRecord> trials) {
+  return std::any_of(trials.begin(), trials.end(), [&](const TrialRecord& trial) {
+    return trial.robots > 0 && trial.pedestrian_model != trials.back().pedestrian_model;
+  });
+}
+
+// The tables of the report's layout (host/layouts/report.json). Rows stand below their scenario, except in tables that
+// have scenarios across. People are named only if there are several pedestrian models.
+std::vector<TableSpec> layout_tables(const std::string& report_layout_json, std::span<const TrialRecord> trials) {
+  std::vector<TableSpec> specs;
+  const nlohmann::json layout = nlohmann::json::parse(report_layout_json);
+  for (const nlohmann::json& table : layout.value("tables", nlohmann::json::array())) {
+    TableSpec spec{table.at("id"), table.at("title"), {}, {}, {}};
+    std::vector<Label>& places = table.contains("across") ? spec.columns : spec.rows;
+    places = {Label::scenario, Label::robots};
+    for (const std::string row : table.at("rows"))
+      if (const auto label = label_named(row); label && (label != Label::pedestrian_model || several_models(trials)))
+        spec.rows.push_back(*label);
+    for (const nlohmann::json& column : table.at("columns")) spec.metrics.push_back(parse_column(column));
+    specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
+// How the layout writes a metric: header, decimals, spread; its name and two decimals if it does not.
+SummaryTableColumn column_of(const std::string& report_layout_json, const std::string& metric) {
+  const nlohmann::json layout = nlohmann::json::parse(report_layout_json);
+  for (const nlohmann::json& table : layout.value("tables", nlohmann::json::array()))
+    for (const nlohmann::json& column : table.at("columns"))
+      if (column.at("metric") == metric) return parse_column(column);
+  SummaryTableColumn column;
+  column.metric = metric;
+  column.header = metric;
+  std::replace(column.header.begin(), column.header.end(), '_', ' ');
+  return column;
+}
 
 std::vector<Label> labels_of(const char* option, const std::vector<std::string>& names) {
   std::vector<Label> labels;

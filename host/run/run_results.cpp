@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -19,13 +21,13 @@
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/bounds.hpp"
 #include "host/ranking/failure_causes.hpp"
+#include "host/ranking/graded_series.hpp"
 #include "host/ranking/tested_worlds.hpp"
 #include "host/report/write_report.hpp"
 #include "host/results/trials_csv.hpp"
-#include "host/terminal/answer_block.hpp"
 #include "host/terminal/closing_line.hpp"
 #include "host/terminal/colors.hpp"
-#include "host/terminal/graded_table.hpp"
+#include "host/terminal/display_width.hpp"
 #include "host/terminal/progress.hpp"
 #include "host/terminal/summary_table.hpp"
 #include "host/terminal/wrapped_text.hpp"
@@ -63,6 +65,44 @@ bool try_to_report(const RunResults& results, const fs::path& directory) {
 }
 
 namespace {
+
+// The thresholds of tests with levels, in lines for the terminal. A block for each series: its levels from hard to
+// easy, then a line for each combination with its threshold and its success at every level.
+std::string graded_table(std::span<const GradedSeries> all) {
+  if (all.empty()) return "";
+  std::size_t name_width = 0;
+  std::size_t words_width = 0;
+  for (const GradedSeries& series : all)
+    for (const GradedResult& result : series.results) {
+      name_width = std::max(name_width, display_width(combination_name(all, result)));
+      words_width = std::max(words_width, display_width(threshold_words(series, result.estimate)));
+    }
+  std::string out;
+  for (const GradedSeries& series : all) {
+    out += fmt::format("  {} · {}{}{}\n", series.title, series.quantity, series.unit == "1" ? "" : ", " + series.unit,
+                       tells_apart(series) ? "" : " · sanity only: no level has a mean in [0.2, 0.8]");
+    out += fmt::format("    {}  {}", pad_right("", name_width), pad_right("passes half", words_width));
+    for (const double level : series.levels) out += fmt::format("  {:>5}", fmt::format("{:.3g}", level));
+    out += "\n";
+    for (const GradedResult& result : series.results) {
+      out += fmt::format("    {}  {}", pad_right(combination_name(all, result), name_width),
+                         pad_right(threshold_words(series, result.estimate), words_width));
+      for (const double mean : result.means)
+        out += fmt::format("  {:>5}", std::isnan(mean) ? "–" : fmt::format("{:.2f}", mean));
+      out += "\n";
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+// Which combination is better, below the table at the end of a run: the answer's heading and sentences
+// (answer_text.hpp), indented and wrapped at `width` columns (0: not wrapped).
+std::string answer_block(const Answer& answer, std::span<const CombinationFailures> failures, std::size_t width) {
+  std::string block = wrapped_text(answer_heading(answer) + ":", width, "  ");
+  for (const std::string& line : answer_lines(answer, failures)) block += wrapped_text(line, width, "    ");
+  return block;
+}
 
 // Of the combination with the fewest tasks.
 std::string few_tasks_caution(std::span<const CombinationSummary> summaries) {

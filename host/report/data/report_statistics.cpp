@@ -1,20 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/data/report_statistics.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <vector>
 
+#include "core/statistics/kaplan_meier.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
+#include "core/statistics/rank_correlation.hpp"
 #include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/failure_causes.hpp"
+#include "host/ranking/measures.hpp"
 #include "host/report/data/report_comparisons.hpp"
-#include "host/report/data/report_completion.hpp"
-#include "host/report/data/report_correlations.hpp"
-#include "host/report/data/report_delay.hpp"
 #include "host/report/data/report_json.hpp"
+#include "host/report/data/report_layout.hpp"
+#include "host/report/data/report_values.hpp"
+#include "host/results/manifest.hpp"
+#include "host/results/summary_layout.hpp"
 
 namespace dmrp::host {
+
 namespace {
+
+// A rank correlation of two metrics, within one scenario, planner and pedestrian model, and within controllers, because
+// pooling can cause Simpson's paradox.
+struct StratumCorrelation {
+  CombinationLabels stratum;  // without a controller: includes the trials of all controllers
+  std::size_t x;              // metrics
+  std::size_t y;
+  core::RankCorrelation correlation;  // over the tasks in which both are defined, within controllers
+};
+
+struct Stratum {
+  CombinationLabels labels;
+  std::vector<std::size_t> trials;
+};
+
+// The arrival times of the robots of all trials of a combination, including robots that never arrive. A robot that has
+// not arrived at the end of its trial (time limit, deadlock or fault) is censored at the time limit, not at the end: a
+// deadlock does not mean that it would have arrived soon.
+struct ArrivalTimes {
+  std::size_t combination;
+  std::uint32_t robots;
+  double horizon_s;  // the time limit
+  core::MeanOfTasks restricted_mean_s;
+  double arrived_share;
+  std::vector<core::SurvivalStep> not_arrived;  // share of robots that have not arrived
+};
+
+// The delay of pedestrians by robots, from pairs of trials with and without robots. As people_delays() has it
+// (host/ranking/measures.hpp): of people who met robots, against the same people without.
+struct PedestrianDelay {
+  std::size_t combination;  // with robots
+  std::uint32_t pairs;
+  core::MeanOfTasks over_tasks;  // s
+};
 
 struct Choice {
   Varied varied;
@@ -25,6 +70,117 @@ struct Choice {
 constexpr Choice choices[] = {{Varied::global_planner, "global_planner", &CombinationLabels::global_planner},
                               {Varied::local_controller, "local_controller", &CombinationLabels::local_controller},
                               {Varied::pedestrian_model, "pedestrian_model", &CombinationLabels::pedestrian_model}};
+
+std::vector<Stratum> strata_of(const ReportFrame& frame) {
+  std::vector<Stratum> strata;
+  for (std::size_t trial = 0; trial < frame.trials.size(); ++trial) {
+    if (!has_result(frame.trials[trial]) || frame.trials[trial].robots == 0) continue;
+    CombinationLabels labels = frame.combinations[frame.combination_of[trial]];
+    labels.local_controller.clear();
+    const auto found =
+        std::find_if(strata.begin(), strata.end(), [&](const auto& one) { return one.labels == labels; });
+    if (found == strata.end())
+      strata.push_back({labels, {trial}});
+    else
+      found->trials.push_back(trial);
+  }
+  return strata;
+}
+
+core::RankCorrelation correlate(const ReportFrame& frame, const Stratum& stratum, std::size_t x, std::size_t y) {
+  std::map<std::size_t, std::vector<std::size_t>> controllers;  // by combination: the other labels are constant
+  for (const std::size_t trial : stratum.trials)
+    if (frame.values[trial][x] && frame.values[trial][y]) controllers[frame.combination_of[trial]].push_back(trial);
+  std::vector<std::vector<double>> xs;
+  std::vector<std::vector<double>> ys;
+  for (const auto& [combination, trials] : controllers) {
+    xs.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][x]; }));
+    ys.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][y]; }));
+  }
+  return core::task_rank_correlation(xs, ys, frame.tasks.resampling);
+}
+
+std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes) {
+  std::vector<StratumCorrelation> found;
+  const std::optional<std::size_t> x = frame.metric(axes.x);
+  if (!x) return found;
+  for (const Stratum& stratum : strata_of(frame))
+    for (const std::string& name : axes.y)
+      if (const std::optional<std::size_t> y = frame.metric(name))
+        found.push_back({stratum.labels, *x, *y, correlate(frame, stratum, *x, *y)});
+  return found;
+}
+
+// One for each robot. The robots of a trial that a fault ended before it was measured did not arrive.
+std::vector<core::TimeToEvent> robots_of(const TrialRecord& trial, const std::string& metric, double horizon_s) {
+  std::vector<core::TimeToEvent> robots;
+  for (const MetricValue& value : trial.values) {
+    if (value.subject_kind != DMRP_SUBJECT_ROBOT || value.coordinate || value.metric != metric) continue;
+    robots.push_back({value.value.value_or(horizon_s), value.value.has_value()});
+  }
+  if (robots.empty() && trial.outcome == trial_outcome::fault) robots.resize(trial.robots, {horizon_s, false});
+  return robots;
+}
+
+// Nobody is censored before the horizon: the area under the curve is a mean.
+core::MeanOfTasks restricted_mean(const Tasks& tasks, std::span<const std::size_t> trials,
+                                  const std::vector<std::vector<core::TimeToEvent>>& by_trial, double horizon_s) {
+  const auto mean_of = [&](std::size_t trial) -> std::optional<double> {
+    if (by_trial[trial].empty()) return std::nullopt;
+    double sum_s = 0.0;
+    for (const core::TimeToEvent& robot : by_trial[trial]) sum_s += std::min(robot.time, horizon_s);
+    return sum_s / static_cast<double>(by_trial[trial].size());
+  };
+  return core::mean_of_tasks(task_means(tasks, trials, mean_of), core::Interval{0.0, horizon_s}, tasks.resampling);
+}
+
+// The time limit, or the end of the longest trial if the manifest has none.
+double horizon_of(const ReportFrame& frame, const ExperimentFacts& facts, std::size_t combination) {
+  if (const auto limit_s = time_limit_s(facts, frame.combinations[combination])) return *limit_s;
+  double longest_s = 0.0;
+  for (std::size_t i = 0; i < frame.trials.size(); ++i)
+    if (frame.combination_of[i] == combination) longest_s = std::max(longest_s, frame.trials[i].sim_time_s);
+  return longest_s;
+}
+
+// For each combination with robots; empty if the metric of the layout was not measured.
+std::vector<ArrivalTimes> arrival_times(const ReportFrame& frame, const ExperimentFacts& facts,
+                                        const ReportLayout& layout) {
+  std::vector<ArrivalTimes> found;
+  if (!frame.metric(layout.completion)) return found;
+  std::vector<std::vector<core::TimeToEvent>> by_trial(frame.trials.size());
+  for (std::size_t i = 0; i < frame.combinations.size(); ++i) {
+    const double horizon_s = horizon_of(frame, facts, i);
+    std::vector<std::size_t> trials;
+    std::vector<core::TimeToEvent> robots;
+    for (std::size_t trial = 0; trial < frame.trials.size(); ++trial) {
+      if (frame.combination_of[trial] != i || !has_result(frame.trials[trial])) continue;
+      trials.push_back(trial);
+      by_trial[trial] = robots_of(frame.trials[trial], layout.completion, horizon_s);
+      robots.insert(robots.end(), by_trial[trial].begin(), by_trial[trial].end());
+    }
+    if (robots.empty()) continue;
+    const auto arrived = std::count_if(robots.begin(), robots.end(), [](const auto& robot) { return robot.happened; });
+    found.push_back({i, static_cast<std::uint32_t>(robots.size()), horizon_s,
+                     restricted_mean(frame.tasks, trials, by_trial, horizon_s),
+                     static_cast<double>(arrived) / static_cast<double>(robots.size()), core::kaplan_meier(robots)});
+  }
+  return found;
+}
+
+// For each combination with robots that has a counterpart without robots; empty if the metrics were not measured.
+std::vector<PedestrianDelay> pedestrian_delays(const ReportFrame& frame, const SummaryLayout& layout) {
+  const std::vector<std::optional<double>> delays = people_delays(layout, frame.trials);
+  std::map<std::size_t, std::vector<std::size_t>> trials_of;  // a combination's with a delay
+  for (std::size_t i = 0; i < delays.size(); ++i)
+    if (delays[i]) trials_of[frame.combination_of[i]].push_back(i);
+  std::vector<PedestrianDelay> found;
+  for (const auto& [combination, trials] : trials_of)
+    found.push_back({combination, static_cast<std::uint32_t>(trials.size()),
+                     core::mean_of_tasks(task_means(frame.tasks, trials, [&](std::size_t i) { return delays[i]; }), {},
+                                         frame.tasks.resampling)});
+  return found;
+}
 
 Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
   const CombinationLabels& a = frame.combinations[one.a];

@@ -1,23 +1,95 @@
 // SPDX-License-Identifier: MIT
 #include "host/report/replay/replay_data.hpp"
 
+#include <dmrp/sample.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/segment.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "host/report/replay/replay_contacts.hpp"
 #include "host/report/replay/replay_numbers.hpp"
-#include "host/report/replay/replay_scans.hpp"
-#include "host/report/replay/replay_tracks.hpp"
 #include "host/report/replay/replay_world.hpp"
 
 namespace dmrp::host {
+
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t most_beams = 180;  // of a scan: others are left out
+
+class RobotTrack {
+ public:
+  // `path`: the current path; may be null.
+  void add(std::size_t sample, const dmrp_robot_sample& robot, const dmrp_path* path);
+
+  // Adds the series to the robot's JSON object.
+  void write_to(nlohmann::json& robot) &&;
+
+ private:
+  Deltas x_;
+  Deltas y_;
+  Deltas theta_;
+  double unwrapped_theta_ = 0.0;
+  Runs state_;
+  Runs goal_;
+  bool active_ = true;
+  Deltas speed_;
+  Deltas deviation_;  // -1 without a path
+};
+
+class PeopleTracks {
+ public:
+  void add(std::size_t sample, const dmrp_sample& people);
+  nlohmann::json json() &&;
+
+ private:
+  // One person's presence, from entering to leaving.
+  struct Visit {
+    std::uint64_t id;
+    std::uint32_t group;
+    double radius_m;
+    std::size_t from_sample;
+    Deltas x;
+    Deltas y;
+  };
+  std::vector<Visit> visits_;
+  std::map<std::uint64_t, std::size_t> latest_;  // by id: index of the last visit
+};
+
+struct ReplayContact {
+  std::uint32_t kind = 0;   // DMRP_CONTACT_*
+  std::uint32_t robot = 0;  // `a` of the contact in the trace
+  std::uint64_t other = 0;  // `b`; the id, not the index, of a person
+  std::uint32_t flags = 0;  // DMRP_CONTACT_*, of the first sample
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;     // of the last sample
+  double depth_m = 0.0;       // maximum
+  dmrp_vec2 point{};          // at the beginning
+  double impact_speed = 0.0;  // m/s; NaN: not known
+};
+
+// Turns the contacts of samples into events with beginning and end. Expects every sample in order.
+class ReplayContacts {
+ public:
+  void observe(const dmrp_sample& sample);
+  const std::vector<ReplayContact>& events() const { return events_; }  // by beginning
+
+ private:
+  using Pair = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>;  // kind, robot, other
+
+  std::vector<ReplayContact> events_;
+  std::map<Pair, std::size_t> latest_;  // index of the pair's last event
+};
 
 // The tracks and contacts, from the samples.
 struct Tracks {
@@ -27,6 +99,131 @@ struct Tracks {
   Runs plan;
   ReplayContacts contacts;
 };
+
+std::int64_t microradians(double angle) {
+  return std::llround(angle * 1e6);
+}
+
+// Differences between beams in centimetres; 0 for a beam without a hit.
+void write_ranges(const core::TraceScan& scan, std::size_t every, std::vector<std::int64_t>& to) {
+  std::int64_t last = 0;
+  for (std::size_t i = 0; i < scan.ranges.size(); i += every) {
+    const std::int64_t range = std::isfinite(scan.ranges[i]) ? std::llround(100.0 * scan.ranges[i]) : 0;
+    to.push_back(range - last);
+    last = range;
+  }
+}
+
+// The scans of one robot; null if there are none. `times_ms`: times of the replay's samples. All scans of a robot have
+// the same beams.
+nlohmann::json replay_scans(const std::vector<core::TraceScan>& scans, std::uint32_t robot,
+                            std::span<const std::int64_t> times_ms) {
+  const core::TraceScan* first = nullptr;
+  std::size_t every = 1;
+  Deltas samples;
+  std::vector<std::int64_t> ranges;
+  for (const core::TraceScan& scan : scans) {
+    const auto sample = std::lower_bound(times_ms.begin(), times_ms.end(), milliseconds(scan.t_ns));
+    const bool is_kept = sample != times_ms.end() && *sample == milliseconds(scan.t_ns);
+    if (scan.robot != robot || scan.ranges.empty() || !is_kept) continue;
+    if (!first) {
+      first = &scan;
+      every = (scan.ranges.size() + most_beams - 1) / most_beams;
+    }
+    if (scan.ranges.size() != first->ranges.size()) continue;
+    samples.add(sample - times_ms.begin());
+    write_ranges(scan, every, ranges);
+  }
+  if (!first) return nullptr;
+  return {{"first", microradians(first->angle_min)},
+          {"step", microradians(first->angle_increment * static_cast<double>(every))},
+          {"beams", (first->ranges.size() + every - 1) / every},
+          {"samples", std::move(samples).json()},
+          {"ranges", std::move(ranges)}};
+}
+
+dmrp_vec2 waypoint(const dmrp_path& path, std::uint32_t index) {
+  return {path.waypoints[index].x, path.waypoints[index].y};
+}
+
+// The distance of a point from a path that is not empty.
+double distance_to(const dmrp_path& path, dmrp_vec2 point) {
+  double nearest = toolkit::squared_distance(waypoint(path, 0), point);
+  for (std::uint32_t i = 1; i < path.count; ++i)
+    nearest =
+        std::min(nearest, toolkit::squared_distance(dmrp_segment{waypoint(path, i - 1), waypoint(path, i)}, point));
+  return std::sqrt(nearest);
+}
+
+void RobotTrack::add(std::size_t sample, const dmrp_robot_sample& robot, const dmrp_path* path) {
+  x_.add(thousandths(robot.pose.x));
+  y_.add(thousandths(robot.pose.y));
+  unwrapped_theta_ += sample == 0 ? robot.pose.theta : toolkit::difference(unwrapped_theta_, robot.pose.theta);
+  theta_.add(thousandths(unwrapped_theta_));
+  state_.add(sample, robot.state);
+  goal_.add(sample, robot.goal_index);
+
+  // the curves end with the robot's task
+  if (!active_) return;
+  active_ = robot.state == DMRP_ROBOT_ACTIVE;
+  const double speed = std::hypot(robot.velocity.v_x, robot.velocity.v_y);
+  speed_.add(thousandths(robot.velocity.v_x < 0.0 ? -speed : speed));
+  const bool has_path = path && path->count > 0;
+  deviation_.add(has_path ? thousandths(distance_to(*path, {robot.pose.x, robot.pose.y})) : -1);
+}
+
+void RobotTrack::write_to(nlohmann::json& robot) && {
+  robot["x"] = std::move(x_).json();
+  robot["y"] = std::move(y_).json();
+  robot["theta"] = std::move(theta_).json();
+  robot["state"] = std::move(state_).json();
+  robot["goal"] = std::move(goal_).json();
+  robot["speed"] = std::move(speed_).json();
+  robot["deviation"] = std::move(deviation_).json();
+}
+
+void PeopleTracks::add(std::size_t sample, const dmrp_sample& people) {
+  for (std::uint32_t i = 0; i < people.person_count; ++i) {
+    const dmrp_person& person = people.people[i];
+    const auto [latest, is_new] = latest_.try_emplace(person.id, visits_.size());
+    const auto left_before = [&](const Visit& visit) { return visit.from_sample + visit.x.size() != sample; };
+    if (is_new || left_before(visits_[latest->second])) {
+      latest->second = visits_.size();
+      visits_.push_back({person.id, person.group, person.radius_m, sample, {}, {}});
+    }
+    Visit& visit = visits_[latest->second];
+    visit.x.add(thousandths(person.position.x));
+    visit.y.add(thousandths(person.position.y));
+  }
+}
+
+nlohmann::json PeopleTracks::json() && {
+  nlohmann::json list = nlohmann::json::array();
+  for (Visit& visit : visits_)
+    list.push_back({{"id", visit.id},
+                    {"group", visit.group},
+                    {"radius", thousandths(visit.radius_m)},
+                    {"from", visit.from_sample},
+                    {"x", std::move(visit.x).json()},
+                    {"y", std::move(visit.y).json()}});
+  return list;
+}
+
+void ReplayContacts::observe(const dmrp_sample& sample) {
+  for (std::uint32_t i = 0; i < sample.contact_count; ++i) {
+    const dmrp_contact& contact = sample.contacts[i];
+    const std::uint64_t other = contact.kind == DMRP_CONTACT_PERSON ? sample.people[contact.b].id : contact.b;
+    const auto [latest, first_of_pair] = latest_.try_emplace({contact.kind, contact.a, other}, events_.size());
+    if (first_of_pair || (contact.flags & DMRP_CONTACT_BEGINS) != 0) {
+      latest->second = events_.size();
+      events_.push_back({contact.kind, contact.a, other, contact.flags, sample.t_ns, sample.t_ns, 0.0, contact.point,
+                         contact.impact_speed});
+    }
+    ReplayContact& event = events_[latest->second];
+    event.to_ns = sample.t_ns;
+    event.depth_m = std::max(event.depth_m, contact.depth_m);
+  }
+}
 
 std::int64_t index_of(const dmrp_plan* plan, const std::deque<core::TracePlan>& plans) {
   const auto found =
