@@ -58,9 +58,9 @@ for family in planners controllers pedestrians metrics; do
   {
     echo "# The built-in $family and their parameters"
     echo
-    echo "Written from the descriptors: \`dmrp-host plugins --markdown libdmrp_$family.so\`."
+    echo "Written from the descriptors: \`dmrp-host plugins --json libdmrp_$family.so\`."
     echo
-    "$host" plugins --markdown "libdmrp_$family.so"
+    "$here/plugins_page.py" "$host" "libdmrp_$family.so"
   } >"$pages/reference/$family.md"
 done
 {

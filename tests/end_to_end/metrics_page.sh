@@ -8,9 +8,9 @@ page=$2/docs/metrics.md
 said=$(mktemp)
 trap 'rm -f "$said"' EXIT
 
-"$host" plugins --markdown libdmrp_metrics.so > "$said"
-if ! sed -n '/^<!-- dmrp-host plugins/,$p' "$page" | diff -u - "$said"; then
-  echo "docs/metrics.md is out of date: put the output of 'dmrp-host plugins --markdown libdmrp_metrics.so' below its text"
+"$2/docs/site/plugins_page.py" "$host" libdmrp_metrics.so > "$said"
+if ! sed -n '/^<!-- docs\/site\/plugins_page/,$p' "$page" | diff -u - "$said"; then
+  echo "docs/metrics.md is out of date: put the output of 'docs/site/plugins_page.py dmrp-host libdmrp_metrics.so' below its text"
   exit 1
 fi
 grep -q '^- `pfd` (m; lower; robots): ' "$said" || { echo "the page does not list pfd"; exit 1; }
