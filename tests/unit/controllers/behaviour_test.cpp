@@ -6,6 +6,8 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace behaviour_test {
+
 using namespace dmrp::test;
 
 TEST_CASE("A straight corridor is driven straight and at full speed") {
@@ -205,3 +207,5 @@ TEST_CASE("DWA reaches its goal with the weights of the paper and of its release
       run("dmrp.controller.dwa", course, {{"path_distance_bias", 5.0}, {"goal_distance_bias", goal_distance_bias}}),
       30.0);
 }
+
+}  // namespace behaviour_test

@@ -8,9 +8,9 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
-using namespace dmrp::test;
+namespace contract_test {
 
-namespace {
+using namespace dmrp::test;
 
 // Walls, a standing and a crossing person, a replan.
 Course eventful() {
@@ -39,8 +39,6 @@ bool same_bits(const Drive& a, const Drive& b) {
     if (std::memcmp(&a.commands[i], &b.commands[i], sizeof(dmrp_command)) != 0) return false;
   return true;
 }
-
-}  // namespace
 
 TEST_CASE("The library describes its controllers") {
   const PluginLibrary& library = PluginLibrary::load("libdmrp_controllers.so");
@@ -222,3 +220,5 @@ TEST_CASE("A standing robot enclosed by obstacles waits without an error") {
   CHECK(drive.static_clearance_m > 0.0);
   CHECK(drive.turned_rad < 0.5);
 }
+
+}  // namespace contract_test

@@ -6,9 +6,9 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
-using namespace dmrp::test;
+namespace dead_ends_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr int starts = 20;
 
@@ -39,8 +39,6 @@ int arrivals(const Controller& controller, const ParamOverrides& changed = {}) {
   return arrived;
 }
 
-}  // namespace
-
 TEST_CASE("MPC, TEB and E3MoP leave a dead end that their path leads through") {
   const auto [id, departure] = GENERATE(table<const char*, const char*>({{"dmrp.controller.mpc", "keep_detour"},
                                                                          {"dmrp.controller.teb", "take_detour"},
@@ -49,3 +47,5 @@ TEST_CASE("MPC, TEB and E3MoP leave a dead end that their path leads through") {
   CHECK(arrivals({id}) == starts);
   CHECK(arrivals({id}, {{departure, false}}) < starts);
 }
+
+}  // namespace dead_ends_test

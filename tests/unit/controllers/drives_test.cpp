@@ -8,9 +8,9 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
-using namespace dmrp::test;
+namespace drives_test {
 
-namespace {
+using namespace dmrp::test;
 
 struct Driven {
   std::string controller;
@@ -63,8 +63,6 @@ void check_drives(const Driven& driven, Course course, double within_s) {
     check_arrives(run(id, course, tuned_parameters(id)), within_s);
   }
 }
-
-}  // namespace
 
 TEST_CASE("Each drive crosses an open hall", "[drives]") {
   Course course;
@@ -124,3 +122,5 @@ TEST_CASE("A holonomic robot goes round an obstacle sideways, without turning fa
   for (const dmrp_command& command : drive.commands) fastest_aside = std::max(fastest_aside, std::abs(command.v_y));
   CHECK(fastest_aside > 0.1);
 }
+
+}  // namespace drives_test

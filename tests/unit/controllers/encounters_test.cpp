@@ -5,6 +5,8 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace encounters_test {
+
 using namespace dmrp::test;
 
 TEST_CASE("Controllers drive around a person who stands on the path") {
@@ -126,3 +128,5 @@ TEST_CASE("Two robots whose paths cross") {
     CHECK(drive.walker_clearance_m > 0.0);
   }
 }
+
+}  // namespace encounters_test

@@ -7,17 +7,15 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
-using namespace dmrp::test;
+namespace random_worlds_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr const char* library = "libdmrp_controllers.so";
 
 bool same_bits(const std::vector<dmrp_command>& a, const std::vector<dmrp_command>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(dmrp_command)) == 0;
 }
-
-}  // namespace
 
 TEST_CASE("In random worlds commands respect the limits, and a reused instance gives the same bits") {
   const Controller controller = GENERATE(from_range(all_controllers()));
@@ -37,3 +35,5 @@ TEST_CASE("MPC does not start with empty parameter intervals") {
   PluginUnderTest mpc(library, "dmrp.controller.mpc", contradictory);
   CHECK(drive_at_random(mpc, 0, 0).breaches == std::vector<std::string>{"start() failed at step -1"});
 }
+
+}  // namespace random_worlds_test

@@ -2,6 +2,8 @@
 // A wall that the plan does not know.
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace unseen_wall_test {
+
 using namespace dmrp::test;
 
 TEST_CASE("A path that an unseen wall cuts off ends before it") {
@@ -26,3 +28,5 @@ TEST_CASE("A path that an unseen wall cuts off ends before it") {
   drive = run(controller, course);
   check_arrives(drive, 35.0);
 }
+
+}  // namespace unseen_wall_test

@@ -6,10 +6,10 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace brute_force_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 double distance(dmrp_vec2 a, dmrp_vec2 b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
@@ -140,8 +140,6 @@ double ldf_by_definition(const RandomTrial& random, double reach_m, bool active_
   return largest;
 }
 
-}  // namespace
-
 TEST_CASE("STO, IBTR and LDF agree with their definitions on random trials") {
   int with_overlap = 0, with_blocking = 0, with_several_pairs = 0;
   for (int i = 0; i < 300; ++i) {
@@ -171,3 +169,5 @@ TEST_CASE("STO, IBTR and LDF agree with their definitions on random trials") {
   CHECK(with_blocking > 50);
   CHECK(with_several_pairs > 50);
 }
+
+}  // namespace brute_force_test

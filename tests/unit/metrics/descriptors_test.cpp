@@ -8,9 +8,9 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
-using namespace dmrp::test;
+namespace descriptors_test {
 
-namespace {
+using namespace dmrp::test;
 
 const dmrp_entry& entry() {
   return PluginLibrary::load("libdmrp_metrics.so").entry();
@@ -45,8 +45,6 @@ std::map<std::string, double> read_parameters(const std::string& file, const dmr
   }
   return parameters;
 }
-
-}  // namespace
 
 TEST_CASE("the metrics declare the values that results are read by, each once") {
   // properties of the crowd and of the task are neither better nor worse
@@ -177,3 +175,5 @@ TEST_CASE("the paper's parameter set equals the defaults, the released code's ha
     CHECK(read_parameters("released_code/" + name + ".toml", descriptor) == parameters);
   }
 }
+
+}  // namespace descriptors_test

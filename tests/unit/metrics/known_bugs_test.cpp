@@ -4,6 +4,8 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace known_bugs_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
 
@@ -91,3 +93,5 @@ TEST_CASE("known bug: danger intervals of one sample and the last interval dropp
   // (1, 2] and (7, 9], open at the end
   CHECK_THAT(measure("dmrp.metric.clearance", trial).system("danger_time"), WithinAbs(100.0 * 3 / 9, 1e-13));
 }
+
+}  // namespace known_bugs_test

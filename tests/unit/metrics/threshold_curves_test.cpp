@@ -5,10 +5,10 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace threshold_curves_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 // Three robots at random positions in a small room that sometimes crawl and arrive one after the other.
 SyntheticTrial wandering(std::uint64_t index) {
@@ -45,8 +45,6 @@ constexpr Curve curves[] = {
     {"dmrp.metric.ibtr", "ibtr", "ibtr_by_speed_fraction", "speed_fractions", "speed_fraction"},
     {"dmrp.metric.ldf", "ldf", "ldf_by_distance", "distances_m", "distance_m"},
 };
-
-}  // namespace
 
 TEST_CASE("every point of a threshold curve equals the scalar with this threshold, to the bit") {
   int different = 0;
@@ -96,3 +94,5 @@ TEST_CASE("the default thresholds include those of the paper and of its released
   CHECK(has("dmrp.metric.ldf", "ldf_by_distance", 2.0));
   CHECK(has("dmrp.metric.ldf", "ldf_by_distance", 1.0));
 }
+
+}  // namespace threshold_curves_test

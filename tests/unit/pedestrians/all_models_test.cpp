@@ -8,9 +8,9 @@
 
 #include "tests/unit/pedestrians/walking_world.hpp"
 
-using namespace dmrp::test;
+namespace all_models_test {
 
-namespace {
+using namespace dmrp::test;
 
 // People on a lattice between the walls, with this density and random targets.
 std::vector<dmrp_person> packed_people(const WalkingWorld& world, double people_per_m2, dmrp::toolkit::Stream& chance) {
@@ -29,8 +29,6 @@ std::vector<dmrp_person> packed_people(const WalkingWorld& world, double people_
   }
   return people;
 }
-
-}  // namespace
 
 TEST_CASE("models walk on a grid of 0.25 m for the scenario's largest person") {
   const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
@@ -204,3 +202,5 @@ TEST_CASE("people from both sides of a door all get through in the end") {
   };
   CHECK(walk.until(150.0, [&] { return std::all_of(walk.people.begin(), walk.people.end(), is_through); }));
 }
+
+}  // namespace all_models_test

@@ -9,9 +9,9 @@
 #include "pedestrians/crowd/robot_reactions.hpp"
 #include "tests/unit/pedestrians/walking_world.hpp"
 
-using namespace dmrp::test;
+namespace reactions_test {
 
-namespace {
+using namespace dmrp::test;
 
 const WalkingWorld& hall() {
   static const WalkingWorld world({24.0, 16.0}, {});
@@ -46,8 +46,6 @@ struct Encounter {
   double stands_s = 0.0;
   std::vector<dmrp_vec2> places;
 };
-
-}  // namespace
 
 TEST_CASE("people answer to a robot as their reaction says, and walk on") {
   const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
@@ -126,3 +124,5 @@ TEST_CASE("shares of the people have reactions, drawn from the seed") {
   CHECK(curious.nearest_m < 1.6);
   CHECK_THROWS(reactions.start(3, dmrp::toolkit::GridView(hall().walking_grid()), {0.5, 0.5, 0.5, 0.0}));
 }
+
+}  // namespace reactions_test

@@ -8,9 +8,9 @@
 
 #include "tests/unit/pedestrians/walking_world.hpp"
 
-using namespace dmrp::test;
+namespace stand_off_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr std::uint64_t starts = 20;
 
@@ -26,8 +26,6 @@ struct Watch {
     longest_stop_s = std::max(longest_stop_s, stopped_s);
   }
 };
-
-}  // namespace
 
 TEST_CASE("people pass a robot that stands in their way where there is room") {
   const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
@@ -69,3 +67,5 @@ TEST_CASE("a person and a robot that waits for people both leave an aisle of 1.8
     CHECK(watch.longest_stop_s < 7.0);
   }
 }
+
+}  // namespace stand_off_test

@@ -8,11 +8,11 @@
 
 #include "tests/unit/pedestrians/walking_world.hpp"
 
+namespace walking_groups_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::distance;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 const std::string social_force = "dmrp.pedestrian.social_force";
 constexpr double body_radius_m = 0.2;  // the host's default
@@ -74,8 +74,6 @@ Shape watch(Walk& walk, std::size_t first, std::size_t size, double duration_s) 
   shape.middle_m /= steps;
   return shape;
 }
-
-}  // namespace
 
 TEST_CASE("a pair walks side by side and close together from any first positions") {
   const WalkingWorld world({100.0, 8.0}, {});
@@ -145,3 +143,5 @@ TEST_CASE("groups in a counter-flow stay together and mostly side by side") {
       CHECK(shape.abreast > 0.5);
     }
 }
+
+}  // namespace walking_groups_test

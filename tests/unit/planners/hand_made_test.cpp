@@ -7,6 +7,8 @@
 #include "tests/unit/planners/planner_variants.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
+namespace hand_made_test {
+
 using namespace dmrp::test;
 
 TEST_CASE("one robot takes a shortest path with fewest turns") {
@@ -218,3 +220,5 @@ TEST_CASE("conflict-based planners give up at their limit or when they are stopp
     CHECK(run_planner(planner, large).status == DMRP_TIMEOUT);
   }
 }
+
+}  // namespace hand_made_test

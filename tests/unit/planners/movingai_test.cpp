@@ -8,9 +8,9 @@
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/planner_variants.hpp"
 
-using namespace dmrp::test;
+namespace movingai_test {
 
-namespace {
+using namespace dmrp::test;
 
 // The folder with the data. Warns if there is none.
 std::optional<std::filesystem::path> data_or_warn() {
@@ -58,8 +58,6 @@ bool changes_expansions(const std::filesystem::path& data, const std::string& id
     }
   return false;
 }
-
-}  // namespace
 
 TEST_CASE("CBS solves 20 robots on random-32-32-20") {
   check_solved(cbs, 1, "random-32-32-20", 20, {1, 2, 3, 4, 5});
@@ -120,3 +118,5 @@ TEST_CASE("every improvement of EECBS changes what is expanded") {
   CHECK(changes_expansions(*data, eecbs, {{150, 2, 3000}}, {{"conflict_steps", 0}}));
   CHECK(changes_expansions(*data, eecbs, crowds, {{"restart_after", 10}}));
 }
+
+}  // namespace movingai_test

@@ -7,9 +7,9 @@
 #include "tests/unit/planners/planner_variants.hpp"
 #include "tests/unit/planners/random_case.hpp"
 
-using namespace dmrp::test;
+namespace planners_test {
 
-namespace {
+using namespace dmrp::test;
 
 const std::vector<std::string> by_conflicts = {cbs, ecbs, eecbs};
 
@@ -57,8 +57,6 @@ std::vector<std::string> all_but(const std::vector<std::string>& out) {
   if (std::find(out.begin(), out.end(), "disjoint_splitting") != out.end()) in.push_back("disjoint_splitting");
   return in;
 }
-
-}  // namespace
 
 TEST_CASE("the library describes its planners") {
   const PluginLibrary& plugins = PluginLibrary::load(planner_library);
@@ -227,3 +225,5 @@ TEST_CASE("the same problem and seed give the same bits, whatever was planned be
     }
   }
 }
+
+}  // namespace planners_test

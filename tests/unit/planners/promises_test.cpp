@@ -11,9 +11,9 @@
 #include "tests/unit/planners/plan_check.hpp"
 #include "tests/unit/planners/random_case.hpp"
 
-using namespace dmrp::test;
+namespace promises_test {
 
-namespace {
+using namespace dmrp::test;
 
 struct Variant {
   std::string id;
@@ -66,8 +66,6 @@ std::string check_answer(const PlanningCase& c, const Plan& plan, std::optional<
   if (plan.cost() > suboptimality * bound->second + 1e-6) return "a cost beyond what the bound allows";
   return check_plan(c, plan);
 }
-
-}  // namespace
 
 TEST_CASE("four robots and one-way moves: bounds and costs hold with every choice of parameters") {
   for (const Variant& variant : variants()) {
@@ -144,3 +142,5 @@ TEST_CASE("a planner that is stopped anywhere times out or returns a valid plan"
   }
   CHECK(given_up > 100);
 }
+
+}  // namespace promises_test

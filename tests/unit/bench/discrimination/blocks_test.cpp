@@ -6,6 +6,8 @@
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
+namespace blocks_test {
+
 using namespace dmrp::bench;
 
 TEST_CASE("partial eta squared takes the differences between tasks out") {
@@ -76,3 +78,5 @@ TEST_CASE("Kendall's tau counts the pairs in the same order") {
   CHECK(kendall_tau(x, std::vector<double>{1, 2, 3, 3}) == Approx(5.0 / std::sqrt(30.0)));
   CHECK(std::isnan(kendall_tau(x, std::vector<double>{1, 1, 1, 1})));
 }
+
+}  // namespace blocks_test

@@ -8,11 +8,11 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace discrimination_test {
+
 using namespace dmrp::bench;
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 // Two robots on a task of the repetition's own; each arrives with this probability, harder tasks have longer ways.
 MakeRobots arriving(double probability, std::uint64_t seed) {
@@ -33,8 +33,6 @@ Discrimination only(const std::vector<TrialRecord>& trials) {
   REQUIRE(found.size() == 1);
   return found.front();
 }
-
-}  // namespace
 
 TEST_CASE("entries that differ much are told apart, and the tasks pass", "[ranking]") {
   std::vector<TrialRecord> trials;
@@ -118,3 +116,5 @@ TEST_CASE("entries of several runs: how they differ may depend on the run", "[ra
   add_trials(one_each, in_run("searcher", "ordered"), 40, arriving(1.0, 3));
   CHECK_FALSE(run_interaction(only(one_each), runs));
 }
+
+}  // namespace discrimination_test

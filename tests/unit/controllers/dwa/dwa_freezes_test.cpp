@@ -11,9 +11,9 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
-using namespace dmrp::test;
+namespace dwa_freezes_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr int starts = draws(20);
 
@@ -76,8 +76,6 @@ bool pass(const HeadOn& pair, bool leans) {
   const auto [one, other] = drive_two("dmrp.controller.dwa", east, west, parameters);
   return one.arrived && other.arrived && one.walker_clearance_m > 0.0 && one.static_clearance_m > 0.0;
 }
-
-}  // namespace
 
 TEST_CASE("DWA drives a path that steps aside and comes back") {
   const auto draw = [](dmrp::toolkit::Stream& random) {
@@ -186,3 +184,5 @@ TEST_CASE("DWA turns at a right angle of a path that weighs most") {
   CHECK(arrivals_with(true) == starts);
   CHECK(arrivals_with(false) < starts);
 }
+
+}  // namespace dwa_freezes_test

@@ -10,11 +10,11 @@
 #include "tests/unit/controllers/fake_costmap.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace dwa_test {
+
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::dwa;
 using dmrp::test::FakeCostmap;
-
-namespace {
 
 const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -83,8 +83,6 @@ std::vector<int> reference_distances(const Terrain& terrain, const std::vector<s
   }
   return distances;
 }
-
-}  // namespace
 
 TEST_CASE("Samples cover the range and include zero if it lies inside") {
   std::vector<double> values;
@@ -360,3 +358,5 @@ TEST_CASE("A path that weighs more than twice the goal stops the robot before a 
   CHECK_FALSE(moves(5.0, 0.8));  // the paper
   CHECK_FALSE(moves(5.0, 1.0));  // its released code
 }
+
+}  // namespace dwa_test

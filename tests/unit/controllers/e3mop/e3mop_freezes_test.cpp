@@ -10,10 +10,10 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace e3mop_freezes_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 constexpr int starts = 20;
 
@@ -117,8 +117,6 @@ int pairs_that_pass(bool keeps_right, bool tracking) {
   return starts;
 }
 
-}  // namespace
-
 TEST_CASE("E3MoP keeps a decimetre from a person who appears before it") {
   const Outcome mended = drive_all(person_appears);
   CHECK(mended.arrived == starts);
@@ -152,3 +150,5 @@ TEST_CASE("Two E3MoP robots pass each other in a corridor where each has to keep
   CHECK(pairs_that_pass(true, tracking) == starts);
   CHECK(pairs_that_pass(false, tracking) < starts);
 }
+
+}  // namespace e3mop_freezes_test

@@ -11,6 +11,8 @@
 #include "tests/unit/controllers/e3mop/e3mop_paths.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
 
+namespace e3mop_test {
+
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::e3mop;
 using dmrp::test::discs_window;
@@ -22,15 +24,11 @@ using dmrp::test::Window;
 using dmrp::toolkit::pi;
 using dmrp::toolkit::Stream;
 
-namespace {
-
 std::vector<PathPoint> spline_of(const Points& points, std::optional<double> start_theta = {}, double step_m = 0.05) {
   std::vector<PathPoint> path;
   SplinePath().fit(points, start_theta, step_m, path);
   return path;
 }
-
-}  // namespace
 
 TEST_CASE("The field is interpolated between the cells' centres, with the exact gradient of the interpolation") {
   const Window window = discs_window({{0.5, 0.4}, {-1.0, 0.3}}, 0.2);
@@ -310,3 +308,5 @@ TEST_CASE("The tracking controller returns to its path") {
   CHECK(std::abs(c.pose.theta) < 0.02);
   CHECK(c.velocity.v_x > 0.75);
 }
+
+}  // namespace e3mop_test

@@ -8,6 +8,8 @@
 
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
 
+namespace lattice_test {
+
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::e3mop;
 using dmrp::test::e3mop_limits;
@@ -15,8 +17,6 @@ using dmrp::test::LatticeProblem;
 using dmrp::test::Window;
 using dmrp::toolkit::pi;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 MotionSet motions_of(const dmrp_limits& limits = e3mop_limits) {
   MotionSet motions;
@@ -94,8 +94,6 @@ Ticks least_cost(LatticeProblem& problem, int heading) {
   }
   return -1;
 }
-
-}  // namespace
 
 TEST_CASE("Motions end exactly on states of the lattice") {
   dmrp_limits limits = e3mop_limits;
@@ -343,3 +341,5 @@ TEST_CASE("On the shipped maps pruning loses no path and at least halves the sta
     CHECK(pruned[windows / 2] <= unpruned[windows / 2]);  // many ways are short and straight: little to prune
   }
 }
+
+}  // namespace lattice_test

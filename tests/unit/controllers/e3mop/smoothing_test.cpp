@@ -6,6 +6,8 @@
 #include "tests/unit/controllers/e3mop/e3mop_paths.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
 
+namespace smoothing_test {
+
 using namespace dmrp::controllers::e3mop;
 using dmrp::test::discs_window;
 using dmrp::test::Points;
@@ -35,3 +37,5 @@ TEST_CASE("Smoothing lowers the objective, keeps the ends, and never moves a poi
     for (const dmrp_vec2 point : after) REQUIRE(window.field.at(point).distance_m >= 0.3);
   }
 }
+
+}  // namespace smoothing_test

@@ -7,9 +7,9 @@
 
 #include "controllers/motion/levenberg_marquardt.hpp"
 
-using namespace dmrp::controllers;
+namespace banded_ldlt_test {
 
-namespace {
+using namespace dmrp::controllers;
 
 constexpr std::size_t bandwidth = 5;
 
@@ -55,8 +55,6 @@ double largest_difference(const std::vector<double>& ours, const Eigen::VectorXd
   return (eigen(ours) - theirs).cwiseAbs().maxCoeff();
 }
 
-}  // namespace
-
 TEST_CASE("The solution of a banded system agrees with a dense one") {
   const std::size_t size = GENERATE(1, 2, 5, 6, 7, 40, 123);
   const bool quasi_definite = GENERATE(false, true);
@@ -92,8 +90,6 @@ TEST_CASE("Singular matrices and matrices that are not finite are refused") {
   a.at(1, 1) = std::nan("");
   CHECK_FALSE(ldlt.factor(a, 1.0));
 }
-
-namespace {
 
 // Rosenbrock's valley as a chain: r = 10 (x_{i+1} - x_i^2), 1 - x_i. The minimum is 0 at ones.
 struct Valley {
@@ -131,8 +127,6 @@ struct Valley {
   void keep() { kept = x; }
   void restore() { x = kept; }
 };
-
-}  // namespace
 
 TEST_CASE("Levenberg-Marquardt finds the minimum of a curved valley") {
   Valley valley{{-1.2, 1.0}};
@@ -182,3 +176,5 @@ TEST_CASE("Levenberg-Marquardt fits a straight line in at most two iterations") 
   CHECK(line.x == Approx(3.0).epsilon(1e-4));
   CHECK(result.iterations <= 2);
 }
+
+}  // namespace banded_ldlt_test

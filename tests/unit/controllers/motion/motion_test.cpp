@@ -16,11 +16,11 @@
 #include "tests/unit/controllers/fake_costmap.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace motion_test {
+
 using namespace dmrp::controllers;
 using dmrp::test::FakeCostmap;
 using dmrp::toolkit::pi;
-
-namespace {
 
 const double nan_heading = std::numeric_limits<double>::quiet_NaN();
 
@@ -61,8 +61,6 @@ void send(PathTracker& tracker, const std::vector<Point>& points, std::uint32_t 
                           waypoints.data()};
   tracker.set_path(dmrp::Path(path));
 }
-
-}  // namespace
 
 TEST_CASE("Steps along an arc end on the circle") {
   const double v = 0.6;
@@ -253,8 +251,6 @@ TEST_CASE("Footprints on the costmap") {
   }
 }
 
-namespace {
-
 // Obstacles of an observation without agents.
 struct Clusters {
   std::vector<std::vector<dmrp_vec2>> shapes;
@@ -277,8 +273,6 @@ const std::vector<dmrp_vec2> corners = {{0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {
 const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
 const std::vector<dmrp_polygon> box_parts = {dmrp::test::polygon_of(corners)};
 const dmrp_footprint box = dmrp::test::polygon_footprint(box_parts, std::hypot(0.3, 0.2), 0.2);
-
-}  // namespace
 
 TEST_CASE("Distances from a robot to obstacles") {
   Now now;
@@ -452,3 +446,5 @@ TEST_CASE("Turning back and forth on the spot is detected; driving and turning a
   drive(20, 0.0, [](int) { return 0.0; });
   CHECK_FALSE(detector.is_oscillating(0.1, 0.1));  // stands
 }
+
+}  // namespace motion_test

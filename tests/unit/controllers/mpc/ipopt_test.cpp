@@ -8,12 +8,12 @@
 #include "controllers/mpc/interior_point.hpp"
 #include "tests/unit/controllers/mpc/recorded_problems.hpp"
 
+namespace ipopt_test {
+
 using namespace dmrp::controllers::mpc;
 using namespace dmrp::test;
 using Ipopt::Index;
 using Ipopt::Number;
-
-namespace {
 
 // A Problem in IPOPT's form. Variables: the states except the first, the controls, dt, an excess for every elastic
 // constraint, and over and under for the three terminal components. Constraints: the transitions, the stages'
@@ -255,8 +255,6 @@ Trajectory solve_by_ipopt(const Problem& problem, const Trajectory& start, bool 
   return status == Ipopt::Solve_Succeeded ? program->solution() : Trajectory{};
 }
 
-}  // namespace
-
 TEST_CASE("At least 95 of 100 recorded problems are solved as well as by IPOPT") {
   int converged = 0;
   int as_good = 0;
@@ -280,3 +278,5 @@ TEST_CASE("At least 95 of 100 recorded problems are solved as well as by IPOPT")
   CHECK(converged >= 80);
   CHECK(as_good >= 0.95 * converged);
 }
+
+}  // namespace ipopt_test

@@ -7,10 +7,10 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace mpc_drive_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 const Controller mpc = {"dmrp.controller.mpc"};
 constexpr int starts = draws(20);
@@ -46,8 +46,6 @@ int doors_passed(const ParamOverrides& parameters, double narrowest_m, double wi
   }
   return passed;
 }
-
-}  // namespace
 
 TEST_CASE("MPC drives around a row of standing people without swinging") {
   const int people = GENERATE(3, 5);
@@ -174,3 +172,5 @@ TEST_CASE("MPC drives through doors 15 cm wider than itself that it comes to at 
     check_arrives(run(mpc, course), 30.0);
   }
 }
+
+}  // namespace mpc_drive_test

@@ -15,13 +15,13 @@
 #include "tests/unit/controllers/fake_costmap.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace mpc_test {
+
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::mpc;
 using dmrp::test::FakeCostmap;
 using dmrp::toolkit::pi;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 const dmrp_footprint disc = dmrp::test::disc_footprint(0.25);
 const std::vector<dmrp_vec2> box_corners = {{-0.3, -0.2}, {0.4, -0.2}, {0.4, 0.2}, {-0.3, 0.2}};
@@ -123,8 +123,6 @@ Solved solve(Problem& problem, const std::vector<Obstacle>& obstacles = {}, std:
   }
   return solved;
 }
-
-}  // namespace
 
 TEST_CASE("Gradients and curvatures of all constraints agree with finite differences") {
   const dmrp_footprint& footprint = GENERATE(0, 1) == 0 ? disc : box;
@@ -486,8 +484,6 @@ TEST_CASE("The guide connects exactly the points that its search reaches") {
   CHECK(connected < 350);
 }
 
-namespace {
-
 // Agents, a wall along x = 1 and a corner at (0.6, 0.28); the robot stands at the origin.
 struct Room {
   std::vector<dmrp_vec2> vertices = {{1.0, -2.0}, {1.0, 2.0}, {0.6, 0.28}};
@@ -544,8 +540,6 @@ struct Room {
   }
 };
 
-}  // namespace
-
 TEST_CASE("A trajectory with states on both sides of a wall is not free") {
   const Room room;
   CHECK(room.allows({{0.5, -1.0, 0.0}, {0.6, -1.0, 0.0}}));
@@ -572,3 +566,5 @@ TEST_CASE("A command lets the robot stop if it covers a period and the braking d
     CHECK_FALSE(room.lets_stop(v, needed_m - 0.02));  // 1 cm nearer than trajectories may come is allowed
   }
 }
+
+}  // namespace mpc_test

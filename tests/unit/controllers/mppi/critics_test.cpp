@@ -9,11 +9,11 @@
 #include "tests/unit/controllers/fake_costmap.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace critics_test {
+
 using namespace dmrp::controllers::mppi;
 using dmrp::test::disc_footprint;
 using dmrp::test::FakeCostmap;
-
-namespace {
 
 constexpr int steps = 10;
 
@@ -59,8 +59,6 @@ Scene along_x(int count) {
 float cost_of_first(const Costs& costs) {
   return costs[0];
 }
-
-}  // namespace
 
 TEST_CASE("MPPI's constraint critic integrates the speed beyond the limits") {
   Batch batch = standing();
@@ -307,3 +305,5 @@ TEST_CASE("MPPI's moving agents cost where they will be") {
   CHECK(costs[0] == Approx(3.81 / 254.0 / steps * 1e6));
   CHECK(costs[1] == 0.0f);
 }
+
+}  // namespace critics_test

@@ -8,9 +8,9 @@
 #include "tests/unit/controllers/arena.hpp"
 #include "tests/unit/controllers/tuned_parameters.hpp"
 
-using namespace dmrp::test;
+namespace mppi_drive_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr const char* mppi = "dmrp.controller.mppi";
 constexpr int starts = draws(20);
@@ -26,8 +26,6 @@ Course straight() {
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   return course;
 }
-
-}  // namespace
 
 TEST_CASE("MPPI brakes if every sampled trajectory collides, and drives on once one is free") {
   Course course = straight();
@@ -145,3 +143,5 @@ TEST_CASE("MPPI knows of agents only if it is to predict them, as nav2 does not"
   CHECK(same_bits(untracked, commands(true, false)));
   CHECK_FALSE(same_bits(untracked, commands(true, true)));
 }
+
+}  // namespace mppi_drive_test

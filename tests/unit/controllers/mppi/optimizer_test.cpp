@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-using namespace dmrp::controllers::mppi;
+namespace optimizer_test {
 
-namespace {
+using namespace dmrp::controllers::mppi;
 
 Model model(bool holonomic = false) {
   Model m;
@@ -40,8 +40,6 @@ bool same_bits(const Batch& a, const Batch& b) {
     }
   return true;
 }
-
-}  // namespace
 
 TEST_CASE("MPPI's samples are named by seed, robot and cycle") {
   const Model m = model();
@@ -210,3 +208,5 @@ TEST_CASE("MPPI's smoothing keeps straight lines and removes jitter") {
     CHECK(optimizer.sequence()[i].v_x == Approx(0.01 * static_cast<double>(i) + left).margin(1e-5));
   }
 }
+
+}  // namespace optimizer_test

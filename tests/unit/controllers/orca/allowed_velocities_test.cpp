@@ -8,10 +8,10 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+namespace allowed_velocities_test {
+
 using namespace dmrp::controllers::orca;
 namespace toolkit = dmrp::toolkit;
-
-namespace {
 
 // The greatest distance between the robot and the point, by small steps, until the robot has turned and beyond.
 double simulated_error(const Follower& follower, double speed, double angle) {
@@ -31,8 +31,6 @@ double simulated_error(const Follower& follower, double speed, double angle) {
 
 constexpr Follower slow_turner = {0.8, 1.0, 1.0, 0.35};
 constexpr Follower quick_turner = {0.8, 6.0, 40.0, 0.35};
-
-}  // namespace
 
 TEST_CASE("The tracking error is that of the motion, greatest at the end of the arc") {
   for (const Follower& follower : {slow_turner, quick_turner}) {
@@ -93,3 +91,5 @@ TEST_CASE("The polygon of allowed velocities keeps the tracking error") {
   }
   CHECK(allowed > 100);
 }
+
+}  // namespace allowed_velocities_test

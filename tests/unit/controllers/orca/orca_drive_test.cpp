@@ -6,13 +6,11 @@
 
 #include "tests/unit/controllers/controllers.hpp"
 
+namespace orca_drive_test {
+
 using namespace dmrp::test;
 
-namespace {
-
 constexpr const char* orca = "dmrp.controller.orca";
-
-}  // namespace
 
 TEST_CASE("Six of ORCA's robots change places on a circle") {
   constexpr int count = 6;
@@ -61,3 +59,5 @@ TEST_CASE("ORCA's robots do not orbit a goal close behind a turn") {
       CHECK(drive.time_s < 20.0);
     }
 }
+
+}  // namespace orca_drive_test

@@ -4,9 +4,9 @@
 
 #include "tests/unit/controllers/arena.hpp"
 
-using namespace dmrp::test;
+namespace stop_and_wait_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr const char* stop_and_wait = "dmrp.controller.stop_and_wait";
 
@@ -15,8 +15,6 @@ Course straight() {
   course.path = metre_path({{0.0, 0.0}, {8.0, 0.0}});
   return course;
 }
-
-}  // namespace
 
 TEST_CASE("Stop and wait turns in place at corners and stays on its path") {
   Course course;
@@ -104,3 +102,5 @@ TEST_CASE("Stop and wait is not stopped by what is beside its path or behind the
   CHECK(drive.time_s < 17.0);
   CHECK(drive.walker_clearance_m > 0.0);
 }
+
+}  // namespace stop_and_wait_test

@@ -8,11 +8,11 @@
 #include "controllers/teb/band_optimizer.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace band_test {
+
 using namespace dmrp;
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::teb;
-
-namespace {
 
 dmrp_limits test_limits() {
   return dmrp::test::differential_limits(-0.2, 0.8, 1.0, 1.0, 1.0);
@@ -96,8 +96,6 @@ Motion motion_at(const double* v) {
   motion_between<true>(directed(v[0], v[1], v[2]), directed(v[4], v[5], v[6]), v[3], motion);
   return motion;
 }
-
-}  // namespace
 
 TEST_CASE("TEB: every residual's derivatives agree with finite differences") {
   toolkit::Stream random(1, "teb.residuals");
@@ -336,3 +334,5 @@ TEST_CASE("TEB: an optimised band is fast, smooth, clear of obstacles and within
   CHECK(band.duration_s() < 5.5);
   CHECK(band.duration_s() > 3.7);
 }
+
+}  // namespace band_test

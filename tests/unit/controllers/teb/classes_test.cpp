@@ -10,11 +10,11 @@
 #include "controllers/teb/class_planner.hpp"
 #include "tests/unit/controllers/robot_body.hpp"
 
+namespace classes_test {
+
 using namespace dmrp;
 using namespace dmrp::controllers;
 using namespace dmrp::controllers::teb;
-
-namespace {
 
 // Owns shapes.
 class Shapes {
@@ -92,8 +92,6 @@ double lowest(const TimedElasticBand& band) {
 double highest(const TimedElasticBand& band) {
   return *std::max_element(band.y.begin(), band.y.end());
 }
-
-}  // namespace
 
 TEST_CASE("TEB: a step crosses a ray from right to left, from left to right, or not") {
   const Vec2 ray = {1.0, 0.0};
@@ -326,3 +324,5 @@ TEST_CASE("TEB: in recovery a robot that faces away turns in the preferred direc
     CHECK((turn == Turn::left ? turned : -turned) > 0.0);
   }
 }
+
+}  // namespace classes_test

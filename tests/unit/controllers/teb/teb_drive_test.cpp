@@ -8,15 +8,13 @@
 #include "tests/unit/controllers/controllers.hpp"
 #include "tests/unit/controllers/tuned_parameters.hpp"
 
-using namespace dmrp::test;
+namespace teb_drive_test {
 
-namespace {
+using namespace dmrp::test;
 
 Controller teb() {
   return {"dmrp.controller.teb"};
 }
-
-}  // namespace
 
 TEST_CASE("TEB: a robot that starts closer to a wall than min_obstacle_dist leaves it") {
   Course course;
@@ -160,3 +158,5 @@ TEST_CASE("TEB: two robots pass each other in a corridor 25 cm wider than both")
   CHECK(passed(starts / 2, {{"keep_away_between_poses", false}}) <= starts / 4);
   CHECK(passed(starts / 2, {{"share_evasion", false}}) <= starts / 4);
 }
+
+}  // namespace teb_drive_test

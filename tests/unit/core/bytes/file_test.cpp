@@ -9,9 +9,9 @@
 #include <string>
 #include <system_error>
 
-using namespace dmrp::core;
+namespace file_test {
 
-namespace {
+using namespace dmrp::core;
 
 namespace fs = std::filesystem;
 
@@ -38,8 +38,6 @@ class Planted {
   const fs::path root = fs::temp_directory_path() / ("dmrp_file_" + std::to_string(getpid()));
 };
 
-}  // namespace
-
 TEST_CASE("a new file takes the place of what has its name") {
   const Planted planted;
   for (const char* name : {"link", "pipe", "folder", "none"}) {
@@ -63,3 +61,5 @@ TEST_CASE("what is no regular file is not opened, and not waited for") {
   CHECK(std::fgetc(open_file(planted.root / "link", Links::followed).get()) == 'k');
   CHECK_THROWS_WITH(open_file(planted.root / "link", Links::refused), Catch::Contains("link: is no regular file"));
 }
+
+}  // namespace file_test

@@ -10,11 +10,11 @@
 #include <optional>
 #include <vector>
 
+namespace action_dependencies_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using toolkit::Cell;
-
-namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -64,8 +64,6 @@ struct Ordered {
 };
 
 using Stages = std::vector<std::uint32_t>;
-
-}  // namespace
 
 TEST_CASE("the second robot at a crossing waits until the first has left it") {
   // the first passes (1, 1) at t = 1, the second, after a wait, at t = 3
@@ -135,8 +133,6 @@ TEST_CASE("a robot on the way to its first cell still occupies the cell where it
   dependencies.reached(0, 0);
   CHECK(dependencies.released(1) == 1);
 }
-
-namespace {
 
 bool meets(Cell a0, Cell a1, Cell b0, Cell b1) {
   const auto passes = [](Cell from, Cell to, Cell cell) {
@@ -222,8 +218,6 @@ Visits visits_of(const std::vector<Walk>& walks, std::vector<std::vector<std::ui
   return visits;
 }
 
-}  // namespace
-
 TEST_CASE("with any delays robots pass every cell in the plan's order, and none waits forever") {
   const bool diagonal = GENERATE(false, true);
   std::size_t moves = 0;
@@ -255,3 +249,5 @@ TEST_CASE("with any delays robots pass every cell in the plan's order, and none 
   }
   CHECK(moves > 10'000);
 }
+
+}  // namespace action_dependencies_test

@@ -15,13 +15,13 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace collision_monitor_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 using dmrp::test::draws;
 using toolkit::Stream;
-
-namespace {
 
 constexpr std::int64_t minute_ns = 60'000'000'000;
 
@@ -107,8 +107,6 @@ double driven_m(World& world, const dmrp_twist& command) {
 const std::vector<RobotSettings> all_types = {disc(Drive::differential), disc(Drive::holonomic),
                                               disc(Drive::ackermann),    cart(Drive::differential),
                                               cart(Drive::holonomic),    cart(Drive::ackermann)};
-
-}  // namespace
 
 TEST_CASE("whatever a controller commands, its robot touches nothing that stands") {
   for (std::size_t i = 0; i < all_types.size(); ++i)
@@ -277,3 +275,5 @@ TEST_CASE("what no sensor sees holds no robot back") {
   World half_blind(scenario, type, {}, geometry_of(scenario), 1);
   CHECK(monitored(half_blind, 0, {-0.4, 0.0, 0.0}).percent == 100);
 }
+
+}  // namespace collision_monitor_test

@@ -10,12 +10,12 @@
 #include "core/scene/planning_grids.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace goal_distances_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 using toolkit::Stream;
-
-namespace {
 
 Scenario with_boxes(Stream& random) {
   Scenario scenario = empty_scenario(40, 30);
@@ -45,8 +45,6 @@ std::vector<double> relaxed(const toolkit::GridView& grid, std::uint32_t goal_ce
   }
   return to_goal_m;
 }
-
-}  // namespace
 
 TEST_CASE("whatever is asked first, the distances to a goal are those of the shortest ways") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -92,3 +90,5 @@ TEST_CASE("a way that comes nearer gains what is driven, whatever its direction"
     }
   }
 }
+
+}  // namespace goal_distances_test

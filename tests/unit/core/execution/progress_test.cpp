@@ -7,10 +7,10 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
+namespace progress_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 dmrp_waypoint waypoint(double x, double y, std::uint32_t goal = 0) {
   dmrp_waypoint made{};
@@ -25,8 +25,6 @@ std::vector<dmrp_waypoint> lane(double from, double to) {
   for (double x = from; x <= to; x += 1.0) path.push_back(waypoint(x, 0));
   return path;
 }
-
-}  // namespace
 
 TEST_CASE("progress follows a path and never decreases") {
   const std::vector<dmrp_waypoint> path = {waypoint(0, 0), waypoint(2, 0), waypoint(2, 0), waypoint(2, 2)};
@@ -138,3 +136,5 @@ TEST_CASE("a path that begins elsewhere has begun when its first waypoint is pas
   CHECK(progress.progress_m() == Approx(1.2));
   CHECK(progress.waypoint() == 1);
 }
+
+}  // namespace progress_test

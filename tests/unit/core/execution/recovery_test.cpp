@@ -13,11 +13,11 @@
 #include "core/execution/referee.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace recovery_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr double pi = std::numbers::pi;
 
@@ -97,8 +97,6 @@ struct Trial {
   std::vector<double> begun_s;  // when
   double recovered_s = 0.0;     // in which the controller was not asked
 };
-
-}  // namespace
 
 TEST_CASE("a robot that gained no more than half a metre for ten seconds recovers") {
   Trial standing_still(hall(), {}, with_ladder({RecoveryStep::wait}));
@@ -282,3 +280,5 @@ TEST_CASE("a robot that arrives while it recovers is left alone") {
   CHECK(trial.steps.size() == 1);
   CHECK_FALSE(trial.ladder.is_recovering(0));
 }
+
+}  // namespace recovery_test

@@ -13,12 +13,12 @@
 #include "core/execution/progress.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace referee_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 using toolkit::Stream;
-
-namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double period_s = 0.1;
@@ -142,8 +142,6 @@ Scenario hall(const std::vector<RobotTask>& robots, double width_m = 60.0, doubl
   scenario.robots = robots;
   return scenario;
 }
-
-}  // namespace
 
 TEST_CASE("a robot that drives beside paths that change every second makes progress") {
   Match match(hall({robot({2.0, 15.43, 0.0}, dmrp_vec2{50.5, 16.5})}), 100.0);
@@ -375,15 +373,11 @@ TEST_CASE("whatever the plans, the gain never decreases, is bounded, and covers 
   }
 }
 
-namespace {
-
 struct Misbehaviour {
   const char* name;
   std::set<std::uint32_t> failures;  // one of these names it
   std::function<Motion(double, std::uint32_t, const World&, Stream&)> drive;
 };
-
-}  // namespace
 
 TEST_CASE("planted misbehaviours end without success, each with its class") {
   const double draw = GENERATE(range(0, 20));
@@ -454,3 +448,5 @@ TEST_CASE("honest slow drives all succeed") {
     CHECK(match.end_of(0, ending).failure == DMRP_FAILURE_NONE);
   }
 }
+
+}  // namespace referee_test

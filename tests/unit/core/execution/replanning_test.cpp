@@ -7,10 +7,10 @@
 
 #include "core/execution/progress.hpp"
 
+namespace replanning_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -49,8 +49,6 @@ std::vector<double> approximately(const std::vector<double>& times) {
   for (const double t : times) rounded.push_back(std::round(10.0 * t) / 10.0);
   return rounded;
 }
-
-}  // namespace
 
 TEST_CASE("by default there is no replanning") {
   CHECK(replans({}, 60.0, [](double) { return dmrp_vec2{0.0, 3.0}; }).empty());
@@ -91,3 +89,5 @@ TEST_CASE("inactive robots cause no replanning") {
   robots[0].state = DMRP_ROBOT_FINISHED;
   CHECK_FALSE(monitor.due(5 * second_ns, robots, std::vector<double>(1), std::vector<PathProgress>(1)));
 }
+
+}  // namespace replanning_test

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+namespace route_map_test {
+
 using namespace dmrp::core;
 namespace toolkit = dmrp::toolkit;
-
-namespace {
 
 // A costmap of 6 m around the origin with discs of obstacles, inflated as a LocalCostmap does.
 struct Surroundings {
@@ -63,8 +63,6 @@ double height_at(const std::vector<dmrp_vec2>& way, double x) {
     if (way[i].x >= x) return way[i - 1].y + (way[i].y - way[i - 1].y) * (x - way[i - 1].x) / (way[i].x - way[i - 1].x);
   return way.back().y;
 }
-
-}  // namespace
 
 TEST_CASE("where nothing stands the way is straight", "[route]") {
   const auto way = Surroundings().map().way(from, to, {});
@@ -147,3 +145,5 @@ TEST_CASE("a long robot fits where its outline is free", "[route]") {
   CHECK(around.map().fits({0.0, 0.0}, 0.0));
   CHECK_FALSE(around.map().fits({0.0, 0.0}, 1.57));
 }
+
+}  // namespace route_map_test

@@ -21,10 +21,10 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 
+namespace mcap_test {
+
 using namespace dmrp::core;
 using dmrp::test::example_trace;
-
-namespace {
 
 // A path of this test alone, removed with it.
 class ScratchFile {
@@ -88,8 +88,6 @@ std::size_t summary_begin(const TraceBytes& bytes) {
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
-
-}  // namespace
 
 TEST_CASE("a trace comes back from its file", "[mcap]") {
   const ScratchFile file;
@@ -335,3 +333,5 @@ TEST_CASE("a trace file contains the channels for Foxglove", "[mcap]") {
   CHECK(has(0, "plan 1 found"));
   CHECK(has(8, R"("message":"time limit","name":"trial")"));
 }
+
+}  // namespace mcap_test

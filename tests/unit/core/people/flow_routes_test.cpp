@@ -8,6 +8,8 @@
 #include "core/scene/static_geometry.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace flow_routes_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -32,3 +34,5 @@ TEST_CASE("the route of a flow goes around obstacles") {
   }
   CHECK(highest > 8.2);
 }
+
+}  // namespace flow_routes_test

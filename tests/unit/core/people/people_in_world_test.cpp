@@ -8,6 +8,8 @@
 
 #include "tests/unit/core/people/sample_worlds.hpp"
 
+namespace people_in_world_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -115,3 +117,5 @@ TEST_CASE("more people than there is room for are refused") {
   scenario.flows = {{"across", {0, 1}, 60}};
   CHECK_THROWS_AS(World(scenario, RobotSettings{}, SimulationSettings{}, geometry_of(scenario), 1), std::runtime_error);
 }
+
+}  // namespace people_in_world_test

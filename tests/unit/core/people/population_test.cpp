@@ -9,11 +9,11 @@
 #include "core/people/crowd_lattice.hpp"
 #include "tests/unit/core/people/sample_worlds.hpp"
 
+namespace population_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -29,8 +29,6 @@ Scenario room(std::uint32_t people) {
 Track track(std::vector<Track::Point> points) {
   return {std::move(points)};
 }
-
-}  // namespace
 
 TEST_CASE("a crowd fills a region evenly, free and apart, up to nearly the closest packing") {
   Scenario scenario = room(150);
@@ -209,3 +207,5 @@ TEST_CASE("a recorded person walks through bodies without pushing them, and bodi
   CHECK(deepest_m > 0.001);
   CHECK(deepest_m < 0.002);
 }
+
+}  // namespace population_test

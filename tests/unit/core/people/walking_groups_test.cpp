@@ -11,11 +11,11 @@
 #include "core/people/crowd_lattice.hpp"
 #include "tests/unit/core/people/sample_worlds.hpp"
 
+namespace walking_groups_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr double neighbors_m = 2.0 * body_radius_m + group_gap_m;  // between members at the beginning
@@ -58,8 +58,6 @@ void check_standing(const Scenario& scenario, const World& world) {
       CHECK(toolkit::distance(person.position, {robot.start.x, robot.start.y}) >= 1.5);
   }
 }
-
-}  // namespace
 
 TEST_CASE("people form groups by slot, a remainder forms a smaller group, people alone have no group") {
   const auto groups = divide_into_groups({{"pairs", {0, 1}, 5, FlowStart::along, true, 2},
@@ -311,3 +309,5 @@ TEST_CASE("members pass a region independently, to targets in a row") {
   }
   CHECK(parted);
 }
+
+}  // namespace walking_groups_test

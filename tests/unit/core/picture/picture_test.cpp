@@ -11,8 +11,10 @@
 #include "core/trace/trace_reader.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 
-namespace dmrp::core {
-namespace {
+namespace picture_test {
+
+using namespace dmrp;
+using namespace dmrp::core;
 
 constexpr Ink black = ink_of(0x000000);
 
@@ -32,7 +34,7 @@ std::size_t count_of(std::span<const std::uint8_t> frame, const Ink& ink) {
 }
 
 std::string example_map(PictureFormat format, const std::string& title) {
-  const TraceBytes bytes = test::example_trace(10);
+  const TraceBytes bytes = dmrp::test::example_trace(10);
   TraceReader trace(bytes);
   TrialMap map(trace.world());
   while (const dmrp_sample* sample = trace.next_sample()) map.observe(*sample);
@@ -101,7 +103,7 @@ TEST_CASE("a map is a document of its format, the same each time", "[picture]") 
 }
 
 TEST_CASE("a frame has its size, and the robots where they are", "[picture]") {
-  const TraceBytes bytes = test::example_trace(10);
+  const TraceBytes bytes = dmrp::test::example_trace(10);
   TraceReader trace(bytes);
   TrialFrames frames(trace.world(), 640, 480, "title");
   const dmrp_sample* sample = trace.next_sample();
@@ -120,5 +122,4 @@ TEST_CASE("a frame has its size, and the robots where they are", "[picture]") {
   CHECK_FALSE(std::equal(later.begin(), later.end(), before.begin()));
 }
 
-}  // namespace
-}  // namespace dmrp::core
+}  // namespace picture_test

@@ -7,7 +7,7 @@
 
 #include "core/scene/static_geometry.hpp"
 
-namespace {
+namespace cell_map_test {
 
 using namespace dmrp;
 using core::CellMap;
@@ -33,8 +33,6 @@ core::Scenario scenario_of(const CellMap& map, double cell_m) {
   scenario.shapes = core::boxes_of(map, cell_m, {0.0, 0.0});
   return scenario;
 }
-
-}  // namespace
 
 TEST_CASE("blocked cells become boxes, each cell in one of them") {
   toolkit::Stream stream(1, "cells");
@@ -86,3 +84,5 @@ TEST_CASE("the grid of cells is the grid of their boxes for a point") {
       REQUIRE(quick.clearance[i] == Approx(exact.clearance[i]).margin(1e-6));
   }
 }
+
+}  // namespace cell_map_test

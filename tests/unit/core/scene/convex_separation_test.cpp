@@ -6,10 +6,10 @@
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
+namespace convex_separation_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 // Corners on an ellipse in counter-clockwise order, so convex.
 ConvexPolygon random_polygon(toolkit::Stream& stream, dmrp_vec2 center) {
@@ -50,8 +50,6 @@ double least_side_distance(const ConvexPolygon& a, const ConvexPolygon& b) {
       least_m = std::min(least_m, toolkit::distance(one.edge(i), two.edge(k)));
   return least_m;
 }
-
-}  // namespace
 
 TEST_CASE("distances and overlaps of 10,000 random pairs agree with brute force") {
   toolkit::Stream stream(5, "test.separation");
@@ -106,3 +104,5 @@ TEST_CASE("a centre on the outline is pushed out") {
   CHECK(apart.distance_m == Approx(-0.25));
   CHECK(apart.normal.x == Approx(-1.0));
 }
+
+}  // namespace convex_separation_test

@@ -8,11 +8,11 @@
 #include "core/scene/footprint.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace footprint_grid_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 RobotSettings transporter() {
   RobotSettings type;
@@ -27,8 +27,6 @@ Scenario rooms_and_corridor(double width_m) {
   scenario.shapes = {box("south", {4, 0}, {8, 4.5 - 0.5 * width_m}), box("north", {4, 4.5 + 0.5 * width_m}, {8, 9})};
   return scenario;
 }
-
-}  // namespace
 
 TEST_CASE("a long robot passes a corridor in which it cannot turn") {
   const auto geometry = geometry_of(rooms_and_corridor(0.9));
@@ -66,3 +64,5 @@ TEST_CASE("a square footprint in the open has the grid of the circle around it")
   CHECK(grid.free == round.free);
   CHECK(grid.edges == round.edges);
 }
+
+}  // namespace footprint_grid_test

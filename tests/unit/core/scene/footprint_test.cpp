@@ -7,10 +7,10 @@
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/random.hpp>
 
+namespace footprint_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 ConvexPolygon rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -32,8 +32,6 @@ double sampled_inscribed_radius(const std::vector<ConvexPolygon>& parts) {
   }
   return least_m;
 }
-
-}  // namespace
 
 TEST_CASE("a rectangle's radii are half its width and half its diagonal") {
   const std::vector<ConvexPolygon> parts = {rectangle(-0.6, -0.3, 0.6, 0.3)};
@@ -71,3 +69,5 @@ TEST_CASE("inscribed radii of random unions agree with sampled rays") {
     CHECK(inscribed_radius(parts) == Approx(sampled_inscribed_radius(parts)).margin(0.004));
   }
 }
+
+}  // namespace footprint_test

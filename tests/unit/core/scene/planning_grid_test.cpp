@@ -14,6 +14,8 @@
 #include "tests/unit/core/scene/sampled_clearance.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
+namespace planning_grid_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -120,3 +122,5 @@ TEST_CASE("a grid over a stored world is the grid over its scenario, to the bit"
     }
   }
 }
+
+}  // namespace planning_grid_test

@@ -10,11 +10,11 @@
 
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace random_tasks_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 PlanningGrid grid_of(const Scenario& scenario) {
   return build_planning_grid(*geometry_of(scenario), 1.0, 0.25, 0.1);
@@ -23,8 +23,6 @@ PlanningGrid grid_of(const Scenario& scenario) {
 dmrp_vec2 place(const dmrp_pose& pose) {
   return {pose.x, pose.y};
 }
-
-}  // namespace
 
 TEST_CASE("random starts and goals are free, on cell centres, apart, and in one connected part of the world") {
   Scenario scenario = random_scenario(3, 40.0, 60);
@@ -115,3 +113,5 @@ TEST_CASE("robots of several types are drawn on their own grids") {
         CHECK(std::hypot(tasks[i].start.x - tasks[k].start.x, tasks[i].start.y - tasks[k].start.y) > 2.6 - 1e-9);
   }
 }
+
+}  // namespace random_tasks_test

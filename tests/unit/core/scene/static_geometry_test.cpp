@@ -12,6 +12,8 @@
 #include "tests/unit/core/sample_scenarios.hpp"
 #include "tests/unit/core/scene/sampled_clearance.hpp"
 
+namespace static_geometry_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -131,3 +133,5 @@ TEST_CASE("the geometry of a stored world needs shapes that it knows") {
   shape.kind = 99;
   CHECK_THROWS_AS(StaticGeometry(world), std::invalid_argument);
 }
+
+}  // namespace static_geometry_test

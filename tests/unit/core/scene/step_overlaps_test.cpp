@@ -8,7 +8,7 @@
 
 #include "tests/support/outline_overlap.hpp"
 
-namespace {
+namespace step_overlaps_test {
 
 using dmrp::core::StepOverlaps;
 using dmrp::test::Outline;
@@ -78,8 +78,6 @@ double deepest(const StepOverlaps::Robot& a, Cell a0, Cell a1, const StepOverlap
   return depth;
 }
 
-}  // namespace
-
 TEST_CASE("footprints overlap during a step as their outlines do") {
   constexpr double grazing_m = 1e-3;  // between two pieces of time
   const Hall hall;
@@ -145,3 +143,5 @@ TEST_CASE("two robots that both rest are never in each other's way") {
   robots[1].is_active = false;
   CHECK_FALSE(StepOverlaps(cell_m, robots).overlap(0, {3, 3}, 1, {4, 3}));
 }
+
+}  // namespace step_overlaps_test

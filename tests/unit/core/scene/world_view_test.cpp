@@ -10,6 +10,8 @@
 #include "core/scene/static_geometry.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace world_view_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -63,3 +65,5 @@ TEST_CASE("a world without people has no radius of people") {
   CHECK(view.world().person_count == 0);
   CHECK(view.world().person_radius_m == 0.0);
 }
+
+}  // namespace world_view_test

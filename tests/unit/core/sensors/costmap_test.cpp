@@ -12,11 +12,11 @@
 #include "core/sensors/sensor_noise.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace costmap_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr double pi = std::numbers::pi;
 
@@ -56,8 +56,6 @@ struct Mapping {
     return costs.costs[static_cast<std::size_t>(cells.y) * costs.width + static_cast<std::size_t>(cells.x)];
   }
 };
-
-}  // namespace
 
 TEST_CASE("hits are lethal, and the cost decreases around them") {
   Scenario scenario = empty_scenario(20, 20);
@@ -222,3 +220,5 @@ TEST_CASE("costs and distances are those of the nearest lethal cell, exactly") {
     CHECK(wrong_distances == 0);
   }
 }
+
+}  // namespace costmap_test

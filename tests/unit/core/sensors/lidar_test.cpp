@@ -9,11 +9,11 @@
 
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace lidar_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr float nothing = std::numeric_limits<float>::infinity();
@@ -25,8 +25,6 @@ std::vector<float> scan_once(const LidarSettings& settings, const Scenario& scen
   lidar.scan(sensor, bodies, {}, ranges);
   return ranges;
 }
-
-}  // namespace
 
 TEST_CASE("a scan measures walls, discs and the border") {
   Scenario scenario = empty_scenario(30, 12);
@@ -148,3 +146,5 @@ TEST_CASE("scans of polygons agree with brute-force rays, 10,000 beams") {
     }
   }
 }
+
+}  // namespace lidar_test

@@ -9,10 +9,10 @@
 #include <dmrp/toolkit/segment.hpp>
 #include <vector>
 
+namespace obstacle_clusters_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 constexpr double resolution_m = 0.05;
 constexpr double tolerance_m = 0.075;
@@ -154,8 +154,6 @@ void check_promises(const Sketch& sketch, const std::vector<dmrp_agent>& agents 
   CHECK(farthest_point_m < tolerance_m + 1e-9);
 }
 
-}  // namespace
-
 TEST_CASE("no lethal cells give no clusters, and single cells give points") {
   Sketch sketch(40, 30);
   sketch.set(3, 3, DMRP_COST_INSCRIBED);
@@ -294,3 +292,5 @@ TEST_CASE("clusters do not depend on what was clustered before") {
   for (std::uint32_t i = 0; i < list.count; ++i)
     CHECK(fresh[i] == Cluster(list.clusters[i].vertices, list.clusters[i].vertices + list.clusters[i].vertex_count));
 }
+
+}  // namespace obstacle_clusters_test

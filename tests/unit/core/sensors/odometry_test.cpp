@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
+namespace odometry_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::int64_t second_ns = 1'000'000'000;
@@ -38,8 +38,6 @@ std::pair<double, double> error_of(const OdometrySettings& settings, const dmrp_
   }
   return {sum / count, std::sqrt(squares / count)};
 }
-
-}  // namespace
 
 TEST_CASE("without noise the believed pose is exact, to the bit") {
   Odometry odometry({}, 1, 0, {1, 2, 0.3});
@@ -161,3 +159,5 @@ TEST_CASE("errors of a holonomic drive have the stated deviations") {
   CHECK(sum_y / count == Approx(component).epsilon(0.1));
   CHECK(sum_turn / count == Approx(0.04 * 0.04 + 0.01 * 0.25).epsilon(0.1));
 }
+
+}  // namespace odometry_test

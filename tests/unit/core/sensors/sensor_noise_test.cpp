@@ -7,14 +7,12 @@
 #include <limits>
 #include <vector>
 
+namespace sensor_noise_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 
-namespace {
-
 constexpr float nothing = std::numeric_limits<float>::infinity();
-
-}  // namespace
 
 TEST_CASE("ranges get normal noise within the lidar's range, and beams drop out") {
   LidarSettings settings;
@@ -98,3 +96,5 @@ TEST_CASE("an agent's velocity noise does not depend on other agents") {
   disturb_agents(0.0, {1, 0, 50}, few);
   CHECK(few[0].velocity == many[2].velocity);
 }
+
+}  // namespace sensor_noise_test

@@ -7,6 +7,8 @@
 #include "core/world/world.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace visibility_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -46,3 +48,5 @@ TEST_CASE("robots scan the world and observe agents according to the tracking") 
   visible_agents(World(scenario, RobotSettings{}, settings, geometry, 1), 1, agents);
   CHECK(agents.empty());
 }
+
+}  // namespace visibility_test

@@ -11,9 +11,9 @@
 
 #include "core/statistics/signed_rank.hpp"
 
-using namespace dmrp::core;
+namespace best_set_test {
 
-namespace {
+using namespace dmrp::core;
 
 using Values = std::vector<std::vector<double>>;
 
@@ -84,8 +84,6 @@ Values pisa_values() {
   }
   return values;
 }
-
-}  // namespace
 
 TEST_CASE("the best set of two entries is the signed-rank test's verdict", "[statistics]") {
   std::vector<double> slower = times(9, 1.0);
@@ -226,3 +224,5 @@ TEST_CASE("the Pareto set", "[statistics]") {
   CHECK(pareto_set(means, {true, false}) == std::vector<bool>{true, true, false, false, true});
   CHECK(pareto_set({}, {}).empty());
 }
+
+}  // namespace best_set_test

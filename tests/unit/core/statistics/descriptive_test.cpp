@@ -6,15 +6,13 @@
 #include <cmath>
 #include <vector>
 
-using namespace dmrp::core;
+namespace descriptive_test {
 
-namespace {
+using namespace dmrp::core;
 
 std::vector<double> repeated(double value, std::size_t count) {
   return std::vector<double>(count, value);
 }
-
-}  // namespace
 
 TEST_CASE("mean, standard deviation and median", "[statistics]") {
   const std::array<double, 8> values{2, 4, 4, 4, 5, 5, 7, 9};
@@ -89,3 +87,5 @@ TEST_CASE("the paper's mean", "[statistics]") {
     CHECK(paper_mean({}).count == 0);
   }
 }
+
+}  // namespace descriptive_test

@@ -9,9 +9,9 @@
 
 #include "core/statistics/betting.hpp"
 
-using namespace dmrp::core;
+namespace mean_of_tasks_test {
 
-namespace {
+using namespace dmrp::core;
 
 Resampling one_world(std::size_t tasks) {
   return {std::vector<std::uint32_t>(tasks, 0), Scope::these_worlds};
@@ -29,8 +29,6 @@ double binomial(std::size_t n, std::size_t k, double p) {
   return std::exp(std::lgamma(real(n) + 1.0) - std::lgamma(real(k) + 1.0) - std::lgamma(real(n - k) + 1.0) +
                   real(k) * std::log(p) + real(n - k) * std::log1p(-p));
 }
-
-}  // namespace
 
 TEST_CASE("the betting interval covers every share with 95 %: all outcomes counted", "[statistics]") {
   for (const std::size_t n : {1u, 3u, 10u, 25u, 60u}) {
@@ -183,3 +181,5 @@ TEST_CASE("one resampling of tasks", "[statistics]") {
     CHECK_FALSE(same(first, other));
   }
 }
+
+}  // namespace mean_of_tasks_test

@@ -11,9 +11,9 @@
 #include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 
-using namespace dmrp::core;
+namespace paired_statistics_test {
 
-namespace {
+using namespace dmrp::core;
 
 // Hollander, Wolfe: Nonparametric Statistical Methods, table 3.1: depression scale factors of nine patients before and
 // after a tranquilizer.
@@ -74,8 +74,6 @@ std::vector<double> drawn_differences(std::uint64_t seed, std::size_t count, dou
   for (std::size_t i = 0; i < count; ++i) differences.push_back(std::round(random.uniform(-spread, spread + 1.0)));
   return differences;
 }
-
-}  // namespace
 
 TEST_CASE("Wilcoxon's signed-rank test agrees with its textbook examples", "[statistics]") {
   SECTION("Hollander and Wolfe, example 3.1: T+ = 5 of the improvement, P = 0.0195 one-sided") {
@@ -246,3 +244,5 @@ TEST_CASE("Holm's correction", "[statistics]") {
   }
   CHECK(holm_adjusted({}).empty());
 }
+
+}  // namespace paired_statistics_test

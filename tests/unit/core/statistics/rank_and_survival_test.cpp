@@ -10,9 +10,9 @@
 #include "core/statistics/rank_correlation.hpp"
 #include "core/statistics/ranks.hpp"
 
-using namespace dmrp::core;
+namespace rank_and_survival_test {
 
-namespace {
+using namespace dmrp::core;
 
 using Values = std::vector<std::vector<double>>;  // [entry][task]
 
@@ -28,8 +28,6 @@ std::vector<TimeToEvent> freireich_6mp() {
   for (const double time : {6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35}) cases.push_back({time, false});
   return cases;
 }
-
-}  // namespace
 
 TEST_CASE("midranks", "[statistics]") {
   CHECK(doubled_midranks(std::vector<double>{3, 1, 3, 2}) == std::vector<std::int64_t>{7, 2, 7, 4});
@@ -126,3 +124,5 @@ TEST_CASE("Kaplan and Meier's estimate of Freireich's remissions", "[statistics]
   }
   CHECK(kaplan_meier({}).empty());
 }
+
+}  // namespace rank_and_survival_test

@@ -7,9 +7,9 @@
 #include <dmrp/toolkit/random.hpp>
 #include <limits>
 
-using namespace dmrp::core;
+namespace threshold_test {
 
-namespace {
+using namespace dmrp::core;
 
 // `successes` of `count` at a level.
 LevelOutcomes outcomes(double level, int successes, int count) {
@@ -21,8 +21,6 @@ LevelOutcomes outcomes(double level, int successes, int count) {
 Resampling repetitions(std::size_t count) {
   return {std::vector<std::uint32_t>(count), Scope::these_worlds, 400};
 }
-
-}  // namespace
 
 TEST_CASE("isotonic fit: violators are pooled by weight") {
   const std::vector<double> ones(6, 1.0);
@@ -123,3 +121,5 @@ TEST_CASE("the interval holds the threshold of the curve that trials are drawn f
   CHECK(covered >= rounds * 88 / 100);
   CHECK(covered <= rounds * 99 / 100);
 }
+
+}  // namespace threshold_test

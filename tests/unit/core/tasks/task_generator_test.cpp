@@ -9,11 +9,11 @@
 #include "core/tasks/task_difficulty.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace task_generator_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 PlanningGrid grid_of(const Scenario& scenario) {
   return build_planning_grid(*geometry_of(scenario), 1.0, 0.25, 0.1);
@@ -34,8 +34,6 @@ Scenario two_halls() {
 RobotTask task(double x, double y, double to_x, double to_y) {
   return robot({x, y, any_heading}, dmrp_vec2{to_x, to_y});
 }
-
-}  // namespace
 
 TEST_CASE("robots that meet on a cell at a step conflict; in a corridor there is one lane") {
   const PlanningGrid grid = grid_of(two_halls());
@@ -124,3 +122,5 @@ TEST_CASE("robots are drawn in what the given points reach, not in larger space 
   request.inside.clear();
   CHECK_FALSE(is_in_house(draw_tasks(grids, request, 1).tasks[0].start));
 }
+
+}  // namespace task_generator_test

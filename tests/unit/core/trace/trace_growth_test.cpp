@@ -13,10 +13,10 @@
 #include "core/trace/trace_reader.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 
+namespace trace_growth_test {
+
 using namespace dmrp::core;
 using dmrp::test::example_trace;
-
-namespace {
 
 // Writes a trace again as another version of the contract would have: elements and blocks that are longer or shorter.
 // It goes through the records by their layout in trace.hpp.
@@ -156,8 +156,6 @@ TraceBytes said_by(const TraceBytes& bytes) {
   return again;
 }
 
-}  // namespace
-
 TEST_CASE("fields that a trace has beyond ours are skipped", "[trace]") {
   const TraceBytes trace = example_trace(8);
   const TraceBytes as_written = said_by(trace);
@@ -196,3 +194,5 @@ TEST_CASE("contacts of unknown kinds are left out", "[trace]") {
   REQUIRE(read->contact_count == 1);
   CHECK(read->contacts[0].kind == DMRP_CONTACT_PERSON);
 }
+
+}  // namespace trace_growth_test

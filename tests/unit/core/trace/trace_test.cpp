@@ -6,6 +6,9 @@
 #include "core/trace/trace_reader.hpp"
 #include "tests/unit/core/trace/trace_example.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
+
+namespace trace_test {
+
 using dmrp::core::TraceBytes;
 using dmrp::core::TraceError;
 using dmrp::core::TraceReader;
@@ -14,8 +17,6 @@ using dmrp::test::ExamplePlan;
 using dmrp::test::ExampleSample;
 using dmrp::test::ExampleWorld;
 using dmrp::test::TraceInMemory;
-
-namespace {
 
 template <class Value>
 bool same_bits(const Value& a, const Value& b) {
@@ -84,8 +85,6 @@ int read_or_refuse(const TraceBytes& bytes) {
     return 0;
   }
 }
-
-}  // namespace
 
 TEST_CASE("a trace gives the world back", "[trace]") {
   const TraceBytes bytes = example_trace(1);
@@ -410,3 +409,5 @@ TEST_CASE("a damaged trace is read or refused, never trusted", "[trace]") {
   CHECK(refused > 500);     // lengths, counts, kinds
   CHECK(refused < 19'000);  // most bytes are those of numbers
 }
+
+}  // namespace trace_test

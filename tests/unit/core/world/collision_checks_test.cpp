@@ -17,11 +17,11 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace collision_checks_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 // A body as closed forms know it: a disc, or convex polygons.
 struct Outline {
@@ -127,8 +127,6 @@ Scenario crowded_scenario(toolkit::Stream& stream) {
   return scenario;
 }
 
-}  // namespace
-
 TEST_CASE("FCL finds the contacts of a crowd, as deep as closed forms say") {
   RobotTypes types;
   add_type(types, "transporter", {rectangle(0.6, 0.3)});
@@ -159,3 +157,5 @@ TEST_CASE("FCL finds the contacts of a crowd, as deep as closed forms say") {
   CHECK(contacts_seen > dmrp::test::draws(50'000u));
   CHECK(of_bodies_shifted > dmrp::test::draws(200));  // the comparison sees ten micrometres
 }
+
+}  // namespace collision_checks_test

@@ -16,10 +16,10 @@
 #include "core/scene/convex_separation.hpp"
 #include "tests/support/draws.hpp"
 
+namespace collision_shapes_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 // This program's __ccdSupport takes the place of libccd's.
 bool ccd_is_stubbed = false;
@@ -95,8 +95,6 @@ void check_pair(const ConvexPart& a, const ConvexPart& b, double gap_m, dmrp_vec
   REQUIRE(toolkit::distance(swapped->normal, -toward_a) < 1e-6);
   REQUIRE(toolkit::distance(found->point, swapped->point) < 1e-9);
 }
-
-}  // namespace
 
 extern "C" void __ccdSupport(const void* one, const void* two, const ccd_vec3_t* direction, const ccd_t* ccd,
                              ccd_support_t* support) {
@@ -206,3 +204,5 @@ TEST_CASE("libccd decides whether a disc touches a prism") {
   ccd_is_stubbed = false;
   CHECK_FALSE(without.has_value());
 }
+
+}  // namespace collision_shapes_test

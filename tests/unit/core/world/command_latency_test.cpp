@@ -5,6 +5,8 @@
 #include "core/world/world.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace command_latency_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
@@ -56,3 +58,5 @@ TEST_CASE("a failed robot discards its pending commands") {
   for (int step = 0; step < 50; ++step) world.step({});
   CHECK(world.robots()[0].pose.x == 2.0);
 }
+
+}  // namespace command_latency_test

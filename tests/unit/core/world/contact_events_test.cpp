@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+namespace contact_events_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 constexpr std::int64_t step_ns = 20'000'000;
 constexpr std::int64_t second_ns = 1'000'000'000;
@@ -47,8 +47,6 @@ dmrp_contact meeting(std::uint32_t kind, dmrp_vec2 robot, dmrp_vec2 other, doubl
   tracker.update(step_ns, {stopped, standing, {}}, {&from_b_to_a, 1}, {&contact, 1});
   return contact;
 }
-
-}  // namespace
 
 TEST_CASE("a body is at fault unless it was at rest or moved away when they touched") {
   const auto flags = [](std::uint32_t kind, dmrp_vec2 robot, dmrp_vec2 other) {
@@ -136,3 +134,5 @@ TEST_CASE("a new person in the same slot is another person") {
   CHECK(flags(step_ns, 1, {}) == 0);
   CHECK(flags(2 * step_ns, 9, {-1.0, 0.0}) == (begins | fault_b));  // by the present velocity: there is no other
 }
+
+}  // namespace contact_events_test

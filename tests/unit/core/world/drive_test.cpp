@@ -7,10 +7,10 @@
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
+namespace drive_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
-
-namespace {
 
 constexpr double dt_s = 0.02;
 constexpr double exact = 1e-9;
@@ -45,8 +45,6 @@ dmrp_vec2 integrated_ramp(double v_x, double rate, double duration_s, double whe
   }
   return place;
 }
-
-}  // namespace
 
 TEST_CASE("a differential drive at constant velocity describes an arc") {
   const DriveState start = {{1.0, 2.0, 0.3}, {0.8, 0.0, 0.5}};
@@ -123,3 +121,5 @@ TEST_CASE("commands are clipped to the drive's ability") {
   CHECK(clip_to_drive(command, Drive::differential, differential).v_y == 0.0);
   CHECK(clip_to_drive(command, Drive::ackermann, differential).omega == Approx(std::tan(0.6) / 0.7));
 }
+
+}  // namespace drive_test

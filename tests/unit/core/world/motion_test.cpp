@@ -13,11 +13,11 @@
 #include "core/world/world.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace motion_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 constexpr double pi = std::numbers::pi;
 
@@ -46,8 +46,6 @@ void walk_to(World& world, std::size_t person, dmrp_vec2 place) {
     world.step(velocities);
   }
 }
-
-}  // namespace
 
 TEST_CASE("a quarter of a circle ends where geometry says") {
   const dmrp_pose end = move({0.0, 0.0, 0.0}, {1.0, 0.0, 0.5 * pi}, 1.0);
@@ -235,8 +233,6 @@ TEST_CASE("two robots that drive at each other meet in the middle") {
   CHECK((world.contacts()[0].flags & DMRP_CONTACT_FAULT_B) != 0);
 }
 
-namespace {
-
 // Random commands for robots and people in a random world. Checks all pairs at every step.
 class Chaos {
  public:
@@ -348,8 +344,6 @@ std::uint64_t fingerprint(const World& world) {
   return hash;
 }
 
-}  // namespace
-
 TEST_CASE("bodies stay solid and limits hold for random commands") {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
     Chaos chaos(seed);
@@ -384,3 +378,5 @@ TEST_CASE("equal worlds evolve identically, to the bit") {
   }
   CHECK(fingerprint(one.world()) != fingerprint(other.world()));
 }
+
+}  // namespace motion_test

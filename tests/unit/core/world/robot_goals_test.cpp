@@ -6,15 +6,13 @@
 #include "core/world/world.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace robot_goals_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 
-namespace {
-
 constexpr double pi = std::numbers::pi;
-
-}  // namespace
 
 TEST_CASE("a world tells since when a robot meets its goal; parked, it stays a body") {
   Scenario scenario = empty_scenario(20, 20);
@@ -74,3 +72,5 @@ TEST_CASE("a failed robot brakes and stops") {
   CHECK(world.robots()[0].state == DMRP_ROBOT_FAILED);
   CHECK(world.robots()[0].velocity.v_x == 0.0);
 }
+
+}  // namespace robot_goals_test

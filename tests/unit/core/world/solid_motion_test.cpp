@@ -7,17 +7,15 @@
 
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace solid_motion_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
 
-namespace {
-
 SolidBody person_at(double x) {
   return {{x, 5.0}, 0.3, {}, SolidBody::ContactResponse::yield};
 }
-
-}  // namespace
 
 TEST_CASE("contact pushes people who stand at up to 1 m/s, whatever the step") {
   const std::int64_t step_ns = GENERATE(5'000'000, 10'000'000, 20'000'000, 50'000'000);
@@ -40,3 +38,5 @@ TEST_CASE("contact pushes people who stand at up to 1 m/s, whatever the step") {
   CHECK(row[1].position.x == Approx(2.65 + 2.0).margin(0.25));
   CHECK(row[2].position.x == Approx(3.3 + 2.0).margin(0.25));
 }
+
+}  // namespace solid_motion_test

@@ -11,11 +11,11 @@
 #include "core/world/world.hpp"
 #include "tests/unit/core/sample_scenarios.hpp"
 
+namespace solid_outlines_test {
+
 using namespace dmrp;
 using namespace dmrp::core;
 using namespace dmrp::core::test;
-
-namespace {
 
 ConvexPolygon rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -72,8 +72,6 @@ double deepest_overlap(const World& world) {
   }
   return -least_m;
 }
-
-}  // namespace
 
 TEST_CASE("polygons that drive anywhere never get deeper into anything than the tolerance") {
   const std::uint64_t seed = GENERATE(1, 2, 3, 4, 5, 6);
@@ -174,3 +172,5 @@ TEST_CASE("commands beyond a drive's ability are counted") {
   CHECK(world.robots()[0].clipped_commands == 1);
   CHECK(world.robots()[1].clipped_commands == 0);
 }
+
+}  // namespace solid_outlines_test

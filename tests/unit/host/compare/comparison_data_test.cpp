@@ -6,6 +6,8 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace comparison_data_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
 
@@ -45,3 +47,5 @@ TEST_CASE("the data of a comparison's page have both runs and the differences", 
   CHECK(run["combinations"][0]["local_controller"] == "c");
   CHECK(run["of_combinations"][0][0]["after"] == 0.75);
 }
+
+}  // namespace comparison_data_test

@@ -7,10 +7,10 @@
 #include "host/errors/input_error.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace run_comparison_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 const std::vector<std::string> names{"done", "time"};
 
@@ -47,8 +47,6 @@ RunComparison compare(std::uint32_t before, std::uint32_t after, std::uint32_t r
 Verdict verdict(const std::string& condition, const RunComparison& comparison) {
   return judge(parse_fail_condition(condition), comparison.metrics.front());
 }
-
-}  // namespace
 
 TEST_CASE("runs are compared trial by trial", "[compare]") {
   const RunComparison found = compare(0, 4);
@@ -161,3 +159,5 @@ TEST_CASE("conditions are read, or refused", "[compare]") {
   for (const char* wrong : {"", "pfd", "pfd = 1", "pfd < x", "pfd < 1 2", "pfd <= 1", "pfd < 1e999", "pfd < -"})
     CHECK_THROWS_AS(parse_fail_condition(wrong), InputError);
 }
+
+}  // namespace run_comparison_test

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+namespace escaped_text_test {
+
 using dmrp::host::escaped;
 
 TEST_CASE("a text is plain if nothing of it is escaped, however long it is") {
@@ -52,3 +54,5 @@ TEST_CASE("whatever the text, the result is valid for JSON and short") {
   for (int i = 0; i < 2000; ++i) euros += "\u20ac";
   CHECK(escaped(euros.c_str()) == euros.substr(0, 3999));  // no part of a character
 }
+
+}  // namespace escaped_text_test

@@ -9,6 +9,8 @@
 
 #include "host/errors/input_error.hpp"
 
+namespace machine_error_test {
+
 using namespace dmrp::host;
 
 TEST_CASE("errors of the operating system and a lack of memory are failures of the machine") {
@@ -36,3 +38,5 @@ TEST_CASE("error texts are one line") {
   CHECK(error_text(std::runtime_error("a\nb")) == "a b");
   CHECK(error_text(std::bad_alloc()) == "out of memory");
 }
+
+}  // namespace machine_error_test

@@ -7,7 +7,7 @@
 #include "host/errors/mistakes.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace all_mistakes_test {
 
 using namespace dmrp::test;
 
@@ -26,8 +26,6 @@ Lines mistakes_of(const std::string& experiment, const std::string& scenario = s
   }
   return {};
 }
-
-}  // namespace
 
 TEST_CASE("one of each table's mistakes") {
   const ExperimentFolder folder;
@@ -202,3 +200,5 @@ TEST_CASE("what follows from a mistake is not told") {
   CHECK(mistakes_of(experiment_text, with(scenario_text, "lower_m = [0.5, 1.0]", "lower_m = [0.5]")).size() == 1);
   CHECK(mistakes_of(experiment_text, with(scenario_text, "name = \"west\"", "nam = \"west\"")).size() == 1);
 }
+
+}  // namespace all_mistakes_test

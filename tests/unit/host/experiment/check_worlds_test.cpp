@@ -10,7 +10,7 @@
 #include "host/trial/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace check_worlds_test {
 
 using namespace dmrp::test;
 using namespace dmrp::host;
@@ -51,8 +51,6 @@ void check_round_trip(const Experiment& original) {
   CHECK(identity_digest(again) == identity_digest(original));
   CHECK(combinations(again).size() == combinations(original).size());
 }
-
-}  // namespace
 
 TEST_CASE("without robots there is a combination for each model, and neither planner nor controller") {
   const ExperimentFolder folder;
@@ -656,3 +654,5 @@ TEST_CASE("plan uses random tasks for a seed") {
   CHECK_THROWS_WITH(use_random_tasks(e, 100, 3), Catch::StartsWith("--agents 100: scenario 'hall' has room for ") &&
                                                      Catch::EndsWith("robots with random tasks"));
 }
+
+}  // namespace check_worlds_test

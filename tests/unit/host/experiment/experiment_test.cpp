@@ -9,7 +9,7 @@
 #include "host/toml/nearest_name.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace experiment_test {
 
 using namespace dmrp::test;
 using namespace dmrp::host;
@@ -93,8 +93,6 @@ memory_mb = 0
 visible = ["table.csv", "/usr"]
 )";
 }
-
-}  // namespace
 
 TEST_CASE("a short experiment is completed by defaults") {
   const ExperimentFolder folder;
@@ -540,3 +538,5 @@ TEST_CASE("what cannot be loaded is left out if the experiment says so") {
   CHECK(refusal(with(two_bad, "libbad", "libbat")) ==
         "experiment.toml:6:12: no library './libbat.so' (there is no file libbat.so)");
 }
+
+}  // namespace experiment_test

@@ -8,7 +8,7 @@
 #include "host/trial/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace levels_test {
 
 using namespace dmrp::test;
 using namespace dmrp::host;
@@ -53,8 +53,6 @@ std::string message_of(const std::string& experiment) {
   }
   return "no error";
 }
-
-}  // namespace
 
 TEST_CASE("formulas of a level") {
   CHECK(evaluate_expression("5 - level / 2", 3.0) == 3.5);
@@ -126,3 +124,5 @@ TEST_CASE("starts are displaced within the jitter, each repetition anew, and sta
   CHECK(message_of(alone("start_jitter = { position = 0.1 }\n")) ==
         "experiment.toml:9:18: unknown key 'position' in 'start_jitter' (did you mean 'position_m'?)");
 }
+
+}  // namespace levels_test

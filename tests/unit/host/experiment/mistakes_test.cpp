@@ -9,7 +9,7 @@
 
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace mistakes_test {
 
 using namespace dmrp::test;
 using dmrp::host::InputError;
@@ -58,8 +58,6 @@ std::vector<Mistake> told_mistakes() {
   }
   return all;
 }
-
-}  // namespace
 
 TEST_CASE("each mistake of mistakes.txt has its place and its words") {
   const ExperimentFolder folder;
@@ -176,3 +174,5 @@ TEST_CASE("keys of many parts are refused, and long names are cut in messages") 
   CHECK(message("x = [1, {" + many(".'c'") + " = 1}]\n") == "experiment.toml:1:10: a key of more than 1000 parts");
   CHECK(message(many("b") + " = 1\n").size() < 2100);
 }
+
+}  // namespace mistakes_test

@@ -7,12 +7,12 @@
 #include "host/trial/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
+namespace robot_types_test {
+
 using namespace dmrp::test;
 using namespace dmrp::host;
 using dmrp::core::Drive;
 using dmrp::core::RobotSettings;
-
-namespace {
 
 const std::string transporter = R"(
 [robot_type.transporter]
@@ -41,8 +41,6 @@ std::string with_type(const std::string& type) {
   return replaced(scenario_text, "start = [0.5, 0.5]\ngoal = [9.5, 0.5]",
                   "type = \"" + type + "\"\nstart = [1.5, 1.5]\ngoal = [8.5, 1.5]");
 }
-
-}  // namespace
 
 TEST_CASE("a type takes what it does not say from [robot]") {
   const ExperimentFolder folder;
@@ -147,3 +145,5 @@ TEST_CASE("a bad type gets one line") {
                         with_type("wide")),
              Catch::Contains("robot 0 "));
 }
+
+}  // namespace robot_types_test

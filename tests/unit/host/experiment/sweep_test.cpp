@@ -4,11 +4,11 @@
 #include "host/errors/input_error.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
+namespace sweep_test {
+
 using namespace dmrp;
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 std::string with_scenario_keys(const std::string& keys) {
   return with(experiment_text, "scenario.toml\"\n", "scenario.toml\"\n" + keys + "\n");
@@ -44,8 +44,6 @@ std::vector<std::string> result_names(const Experiment& experiment) {
   for (const ScenarioVariant& variant : experiment.scenarios) names.push_back(result_name(variant));
   return names;
 }
-
-}  // namespace
 
 TEST_CASE("a list of numbers of people makes a variant of each, with the same seeds") {
   const ExperimentFolder folder;
@@ -143,3 +141,5 @@ TEST_CASE("mistakes in sweeps are one line each") {
   CHECK(message_of(with_scenario_keys("people = 3\npeople_times = 2")) ==
         "experiment.toml:10:1: 'people' and 'people_times' exclude each other");
 }
+
+}  // namespace sweep_test

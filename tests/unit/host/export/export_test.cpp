@@ -8,11 +8,11 @@
 #include "host/export/trials_table.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace export_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
 using Catch::Matchers::Contains;
-
-namespace {
 
 constexpr const char* effective = R"(
 [[global_planner]]
@@ -55,8 +55,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
 }
-
-}  // namespace
 
 TEST_CASE("each trial has the parameters of its plugins and the settings", "[export]") {
   const RunSettings settings(effective, {});
@@ -221,3 +219,5 @@ TEST_CASE("a table as a figure has the values of the LaTeX table", "[export]") {
   CHECK(count_of(svg, "class=\"unit\">s</text>") == 2);
   CHECK(count_of(svg, "<path class=\"rule \"") == 2);
 }
+
+}  // namespace export_test

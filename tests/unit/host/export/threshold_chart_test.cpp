@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
+namespace threshold_chart_test {
+
 using namespace dmrp::host;
 using dmrp::core::Threshold;
-
-namespace {
 
 GradedResult passing(const std::string& controller, Threshold threshold, Threshold low, Threshold high) {
   GradedResult result;
@@ -31,8 +31,6 @@ std::vector<double> places(const std::string& svg, const std::string& pattern) {
     found.push_back(std::stod((*match)[1]));
   return found;
 }
-
-}  // namespace
 
 TEST_CASE("thresholds lie between their levels, evenly spaced, hard ones on the right", "[export]") {
   const GradedSeries series = door({passing("one", {0.65}, {0.6}, {0.7}), passing("two", {0.7}, {0.7}, {0.7})});
@@ -64,3 +62,5 @@ TEST_CASE("what lies beyond the levels has a mark of its own at the end", "[expo
   CHECK(triangles[0] > ticks[0]);
   CHECK(crosses[0] < ticks[2]);
 }
+
+}  // namespace threshold_chart_test

@@ -9,6 +9,8 @@
 
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace atomic_file_test {
+
 using namespace dmrp::host;
 using dmrp::test::content_of;
 using dmrp::test::ScratchFolder;
@@ -67,3 +69,5 @@ TEST_CASE("a pipe, a link and a device that the user names stay what they are, a
   CHECK(fs::is_symlink(folder / "full"));
   CHECK_THROWS_WITH(write_named_file(folder.path(), "x"), Catch::Contains("Is a directory"));
 }
+
+}  // namespace atomic_file_test

@@ -6,6 +6,8 @@
 #include "host/files/atomic_file.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace sha256_test {
+
 using namespace dmrp::host;
 using dmrp::test::ScratchFolder;
 
@@ -19,3 +21,5 @@ TEST_CASE("SHA-256", "[files]") {
   CHECK(sha256_of_file(folder / "large") == "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   CHECK_THROWS_AS(sha256_of_file(folder / "none"), std::system_error);
 }
+
+}  // namespace sha256_test

@@ -7,6 +7,8 @@
 #include "host/results/summary_layout.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace summary_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
@@ -113,3 +115,5 @@ TEST_CASE("layouts are checked", "[results]") {
   CHECK(shipped.columns.size() == 9);
   CHECK_FALSE(shipped.arrived.empty());
 }
+
+}  // namespace summary_test

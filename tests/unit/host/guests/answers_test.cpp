@@ -12,11 +12,11 @@
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 #include "tests/unit/host/trial/stage.hpp"
 
+namespace answers_test {
+
 using namespace dmrp;
 using namespace dmrp::host;
 using nlohmann::json;
-
-namespace {
 
 const CallSite site = {"test.planner", "plan", 0, -1};
 
@@ -32,8 +32,6 @@ json plan_message(const json& counts) {
       {"status", 0},      {"planning_ns", 5},        {"processor_ns", 4}, {"text", ""}, {"statistics", json::array()},
       {"counts", counts}, {"partial", json::array()}};
 }
-
-}  // namespace
 
 TEST_CASE("a plan passes as it was given") {
   const Planned planned;
@@ -106,3 +104,5 @@ TEST_CASE("annotations reach the trace, and bytes that are none do not harm") {
   CHECK(reader.notes()[0].text == "turns\\n");
   REQUIRE(reader.trajectories().size() == 1);
 }
+
+}  // namespace answers_test

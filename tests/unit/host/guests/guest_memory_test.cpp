@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
-using namespace dmrp::host;
+namespace guest_memory_test {
 
-namespace {
+using namespace dmrp::host;
 
 constexpr std::size_t page_bytes = 4096;
 
@@ -21,8 +21,6 @@ int map_error(int descriptor, int protection) {
   munmap(mapped, page_bytes);
   return 0;
 }
-
-}  // namespace
 
 TEST_CASE("nobody but the judge can write to the judge's part") {
   const GuestMemory memory;
@@ -67,3 +65,5 @@ TEST_CASE("a side waits until it is its turn") {
   other.join();
   CHECK(turn == 1);
 }
+
+}  // namespace guest_memory_test

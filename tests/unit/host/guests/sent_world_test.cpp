@@ -8,10 +8,10 @@
 
 #include "tests/unit/host/trial/stage.hpp"
 
+namespace sent_world_test {
+
 using namespace dmrp;
 using namespace dmrp::host;
-
-namespace {
 
 struct Memory {
   std::vector<std::byte> bytes = std::vector<std::byte>(std::size_t{1} << 22);
@@ -25,8 +25,6 @@ Experiment experiment_with(core::Scenario scenario) {
   experiment.scenarios = {{std::move(scenario), "hall", ""}};
   return experiment;
 }
-
-}  // namespace
 
 TEST_CASE("a world is sent with all that it points to") {
   const Experiment experiment = experiment_with(test::hall(2));
@@ -80,3 +78,5 @@ TEST_CASE("an arena has an end, and gives back what came after a mark") {
   CHECK_THROWS_AS(memory.arena.make<double>(std::size_t{1} << 40), std::bad_alloc);
   CHECK_THROWS_AS(memory.arena.make<double>(~std::size_t{0}), std::bad_alloc);
 }
+
+}  // namespace sent_world_test

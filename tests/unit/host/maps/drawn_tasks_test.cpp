@@ -7,7 +7,7 @@
 
 #include "host/errors/input_error.hpp"
 
-namespace {
+namespace drawn_tasks_test {
 
 using namespace dmrp;
 using host::draw_tasks;
@@ -20,8 +20,6 @@ core::CellMap two_parts() {
 core::CellMap one_cell_wide() {
   return {6, 1, {1, 0, 1, 1, 1, 0}};
 }
-
-}  // namespace
 
 TEST_CASE("drawn tasks have distinct free starts and goals in the same part of the map") {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -60,3 +58,5 @@ TEST_CASE("fewer drawn tasks are the first of more, and another seed draws other
 TEST_CASE("more tasks than free cells are a mistake") {
   CHECK_THROWS_WITH(draw_tasks(two_parts(), "m.map", 9, 1), "--draw 9: m.map has 8 free cells");
 }
+
+}  // namespace drawn_tasks_test

@@ -10,7 +10,7 @@
 #include "host/scenario/read_scenario.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace movingai_test {
 
 using namespace dmrp;
 using namespace dmrp::test;
@@ -62,8 +62,6 @@ void write_yard() {
   write_file("yard/yard.map", map_text);
   write_file("yard/yard.scen", tasks_text);
 }
-
-}  // namespace
 
 TEST_CASE("a map is read, its first line above all others") {
   const ExperimentFolder folder;
@@ -172,3 +170,5 @@ TEST_CASE("tasks that the robots cannot do are refused") {
   write_file("yard/scenario.toml", with(yard_text, "cell_m = 2.0", "cell_m = 0.25"));
   REQUIRE_THROWS_WITH(host::adhoc_experiment("./yard"), Catch::Contains("robot 0"));
 }
+
+}  // namespace movingai_test

@@ -16,7 +16,7 @@
 #include "tests/support/test_data.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
-namespace {
+namespace ros_map_test {
 
 using namespace dmrp;
 using namespace dmrp::test;
@@ -130,8 +130,6 @@ host::RosMap read_with_image(const std::string& image, const std::string& more_y
 }
 
 const Cells attic_cells = {1, 1, 0, 1, 0, 0};
-
-}  // namespace
 
 TEST_CASE("a map of map_server is read, the image's first row above all others") {
   const ExperimentFolder folder;
@@ -421,3 +419,5 @@ TEST_CASE("public maps become few shapes that contain every blocked cell") {
       CHECK(area == Approx(0.01 * static_cast<double>(blocked)));
     }
 }
+
+}  // namespace ros_map_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace plan_figures_test {
 
 using namespace dmrp::host;
 
@@ -54,8 +54,6 @@ PlanFigures figures(const PlannedPaths& paths, std::uint32_t connectivity = DMRP
   return figures_of(problem(), paths, connectivity);
 }
 
-}  // namespace
-
 TEST_CASE("moves and waits cost one, rest at the goal costs nothing") {
   const PlanFigures f =
       figures({path({{0, 0}, {1, 0}, {1, 0}, {1, 1}, {1, 1}, {1, 1}}), path({{3, 3}}), path({{5, 0}, {5, 0}, {5, 0}})});
@@ -99,3 +97,5 @@ TEST_CASE("the file counts rows from the top and ends at the goal") {
   CHECK(paths_csv(problem(), {path({{0, 0}, {1, 0}, {1, 0}, {1, 1}, {1, 1}}), path({{5, 3}})}) ==
         "agent,t,x,y\n0,0,0,3\n0,1,1,3\n0,2,1,3\n0,3,1,2\n1,0,5,0\n");
 }
+
+}  // namespace plan_figures_test

@@ -14,10 +14,10 @@
 #include "tests/support/odd_plugins/grown.hpp"
 #include "tests/unit/host/plugins/odd_library.hpp"
 
+namespace descriptor_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
@@ -74,8 +74,6 @@ std::string refusal_of_descriptor(const std::function<void(dmrp_descriptor&)>& s
   spoil(odd.descriptor(odd_controller));
   return OddLibrary::refusal();
 }
-
-}  // namespace
 
 TEST_CASE("the known part of a newer plugin's descriptor is read") {
   const int extra = GENERATE(0, 8, 24);
@@ -405,3 +403,5 @@ TEST_CASE("extensions in `requires` and `uses` that the host lacks are told with
     CHECK(missing_extension(info_of(library, "test.odd.controller")).empty());
   }
 }
+
+}  // namespace descriptor_test

@@ -12,9 +12,9 @@
 #include <iterator>
 #include <string>
 
-using dmrp::host::code_digest;
+namespace elf_file_test {
 
-namespace {
+using dmrp::host::code_digest;
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -52,8 +52,6 @@ std::size_t place_in_code(const std::string& bytes) {
   throw std::runtime_error("no code");
 }
 
-}  // namespace
-
 TEST_CASE("a digest is over what is loaded") {
   const std::string bytes = bytes_of(DMRP_ODD_PLUGINS);
   const std::string digest = digest_of(bytes);
@@ -79,3 +77,5 @@ TEST_CASE("damaged files have a digest, too") {
   std::memcpy(far.data(), &head, sizeof(head));
   CHECK(digest_of(far).size() == 64);
 }
+
+}  // namespace elf_file_test

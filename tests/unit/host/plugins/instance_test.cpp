@@ -9,10 +9,10 @@
 #include "tests/support/instance_pool.hpp"
 #include "tests/unit/host/plugins/odd_library.hpp"
 
+namespace instance_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 // Of no function but the controllers' and planners'. 20 is an answer of a later minor version.
 const std::map<int, std::string> status_names = {
@@ -24,8 +24,6 @@ void check_breach(const PluginFault& fault, const std::string& function, int sta
   CHECK(fault.function() == function);
   CHECK_THAT(fault.what(), Catch::Contains(status_names.at(status)));
 }
-
-}  // namespace
 
 TEST_CASE("create and start may not return NO_SOLUTION or TIMEOUT") {
   for (const auto& [status, name] : status_names)
@@ -183,3 +181,5 @@ TEST_CASE("a plugin knows the host's version of the contract and its own file") 
   CHECK(std::filesystem::path(path).is_absolute());
   CHECK(std::filesystem::equivalent(path, DMRP_ODD_PLUGINS));
 }
+
+}  // namespace instance_test

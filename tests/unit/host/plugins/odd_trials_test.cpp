@@ -5,10 +5,10 @@
 
 #include "tests/unit/host/plugins/odd_library.hpp"
 
+namespace odd_trials_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 const std::string planner = "test.odd.planner", controller = "test.odd.controller", central = "test.odd.central",
                   people = "test.odd.people", metric = "test.odd.metric";
@@ -27,8 +27,6 @@ std::vector<std::string> logged(const Stage& stage, const std::string& beginning
     if (line.text.rfind(beginning, 0) == 0) out.push_back(line.plugin + ": " + line.text);
   return out;
 }
-
-}  // namespace
 
 TEST_CASE("a status that a function may not return is a breach that names it") {
   struct Case {
@@ -261,3 +259,5 @@ TEST_CASE("a plugin may say that a trial is not for it, and that is no breach") 
     check_fault(stage, fault_kind::abi_breach, function, "DMRP_UNSUPPORTED (7)");
   }
 }
+
+}  // namespace odd_trials_test

@@ -21,7 +21,7 @@
 
 #include "host/process/landlock.hpp"
 
-namespace {
+namespace box_test {
 
 using namespace dmrp::host;
 
@@ -70,8 +70,6 @@ std::string reached() {
   return done;
 }
 
-}  // namespace
-
 TEST_CASE("in the box a process reaches no other by a way around signals") {
   CHECK(in_child([] {
           box::enter(false);
@@ -111,3 +109,5 @@ TEST_CASE("what a process may not do to others ends it") {
   CHECK(box::name_of(SYS_clone) == "fork (clone)");
   CHECK(box::name_of(9999) == "system call 9999");
 }
+
+}  // namespace box_test

@@ -16,9 +16,9 @@
 #include "host/process/resource_limits.hpp"
 #include "host/process/watchdog.hpp"
 
-using namespace dmrp::host;
+namespace child_process_test {
 
-namespace {
+using namespace dmrp::host;
 
 // A copy of this process, which runs `function`.
 std::unique_ptr<ChildProcess> copy_for(const std::function<void()>& function) {
@@ -36,8 +36,6 @@ std::unique_ptr<ChildProcess> copy_for(const std::function<void()>& function) {
 ProcessEnding ending_of(const std::function<void()>& function) {
   return copy_for(function)->wait();
 }
-
-}  // namespace
 
 TEST_CASE("the end of a child is explained") {
   const ProcessEnding good = ending_of([] {});
@@ -156,3 +154,5 @@ TEST_CASE("a watchdog waits for the end of a child, or until it is late") {
   sleeper->kill();
   CHECK(watchdog.wait(sleeper->ended().number(), [] { return false; }));
 }
+
+}  // namespace child_process_test

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-namespace {
+namespace line_channel_test {
 
 using namespace dmrp::host;
 using nlohmann::json;
@@ -38,8 +38,6 @@ struct Pair {
   std::unique_ptr<LineChannel> near;
   std::unique_ptr<LineChannel> far;
 };
-
-}  // namespace
 
 TEST_CASE("messages arrive one by one, in order") {
   const Pair pair;
@@ -100,3 +98,5 @@ TEST_CASE("the other side closes") {
   CHECK_FALSE(pair.far->fill());
   CHECK_FALSE(pair.far->receive());
 }
+
+}  // namespace line_channel_test

@@ -21,7 +21,7 @@
 #include "host/process/environment.hpp"
 #include "host/process/orphans.hpp"
 
-namespace {
+namespace view_test {
 
 namespace fs = std::filesystem;
 using namespace dmrp::host;
@@ -119,8 +119,6 @@ std::string fill() {
   return errno == ENOSPC && pieces < 100 ? "full" : std::to_string(pieces);
 }
 
-}  // namespace
-
 TEST_CASE("a process sees what it was given, and can change nothing but temporary files") {
   if (!view::gap().empty()) return;
   const Places places;
@@ -194,3 +192,5 @@ TEST_CASE("plugins have few environment variables, which do not depend on the us
   CHECK(status == 0);
   for (const char* name : {"OMP_NUM_THREADS", "DMRP_TEST_WORD", "DMRP_PLUGIN_PATH"}) unsetenv(name);
 }
+
+}  // namespace view_test

@@ -7,11 +7,11 @@
 #include "host/ranking/answer_text.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace answer_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
 using Catch::Matchers::Contains;
-
-namespace {
 
 const std::vector<RobotResult> both_arrive{{20.0, true, 10.0}, {40.0, true, 20.0}};
 const std::vector<RobotResult> one_fails{{20.0, true, 10.0}, {std::nullopt, true, 20.0}};
@@ -59,8 +59,6 @@ std::vector<std::string> order_of(const Answer& answer) {
 }
 
 using Names = std::vector<std::string>;
-
-}  // namespace
 
 TEST_CASE("safety comes before time", "[ranking]") {
   std::vector<TrialRecord> trials;
@@ -385,3 +383,5 @@ TEST_CASE("the answer says where tasks leave no room for differences", "[ranking
   CHECK(line_of(none_arrives, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
   CHECK(line_of(none_arrives, 9).empty());
 }
+
+}  // namespace answer_test

@@ -5,10 +5,10 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace best_marks_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 // A controller's trials with this length, give or take.
 void add_lengths(std::vector<TrialRecord>& trials, const std::string& controller, double length_m, double spread_m,
@@ -29,8 +29,6 @@ std::vector<std::string> marks_of(const std::vector<TrialRecord>& trials,
 }
 
 using Names = std::vector<std::string>;
-
-}  // namespace
 
 TEST_CASE("the best is marked where it can be told apart from all others", "[ranking]") {
   std::vector<TrialRecord> trials;
@@ -79,3 +77,5 @@ TEST_CASE("planners are compared over their controllers", "[ranking]") {
   }
   CHECK(marks_of(trials, Contestants::planners) == Names{"planned of P "});
 }
+
+}  // namespace best_marks_test

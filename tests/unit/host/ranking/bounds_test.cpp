@@ -7,10 +7,10 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace bounds_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 // Ten robots, of which `safe` arrive safely, each after `s_per_m` for each metre; a task of the repetition's own.
 MakeRobots robots_with(std::uint32_t safe, double s_per_m) {
@@ -42,8 +42,6 @@ struct Summarised {
 std::vector<BoundedValue> repeated(std::size_t count, const BoundedValue& value) {
   return std::vector<BoundedValue>(count, value);
 }
-
-}  // namespace
 
 TEST_CASE("a controller's place is its share of the way from the lower to the upper bound", "[ranking]") {
   std::vector<TrialRecord> trials;
@@ -154,3 +152,5 @@ bound = "upper"
   CHECK(bounds.upper == "Seer");
   CHECK(bounds_of("").lower.empty());
 }
+
+}  // namespace bounds_test

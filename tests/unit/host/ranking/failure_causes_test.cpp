@@ -5,6 +5,8 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace failure_causes_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
 
@@ -83,3 +85,5 @@ TEST_CASE("there is nothing to say where all arrived", "[ranking]") {
   add_trials(trials, "a", 2, [](std::uint32_t) { return std::vector<RobotResult>{{}, {}}; });
   CHECK(failures_line(failure_causes(ranking_layout(), trials)).empty());
 }
+
+}  // namespace failure_causes_test

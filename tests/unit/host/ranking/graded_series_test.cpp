@@ -6,10 +6,10 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace graded_series_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 ScenarioFacts level_of(const std::string& series, double level, const std::string& name, bool harder_when_higher) {
   ScenarioFacts facts;
@@ -31,8 +31,6 @@ void add_level(std::vector<TrialRecord>& trials, const std::string& scenario, st
   });
   for (std::size_t i = before; i < trials.size(); ++i) trials[i].scenario = scenario;
 }
-
-}  // namespace
 
 TEST_CASE("levels are put from hard to easy, and a combination gets its threshold", "[ranking]") {
   const std::vector<ScenarioFacts> facts = {
@@ -81,3 +79,5 @@ TEST_CASE("runs without levels have no series", "[ranking]") {
   mall.name = "mall";
   CHECK(graded_series(ranking_layout(), std::vector{mall}, trials).empty());
 }
+
+}  // namespace graded_series_test

@@ -10,10 +10,10 @@
 
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
+namespace tested_worlds_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
-
-namespace {
 
 const std::vector<TestedWorld> tested = {
     {"mall", 16, 12, "planners", true}, {"mall", 8, 60, "controllers", true}, {"library", 16, 8, "planners", false}};
@@ -30,8 +30,6 @@ std::vector<std::string> sentences(const std::string& scenario, std::uint32_t ro
   const std::vector<TrialRecord> trials = {trial_in(scenario, robots, "CBS"), trial_in(scenario, robots, "SIPP")};
   return sanity_only(tested, facts, trials);
 }
-
-}  // namespace
 
 TEST_CASE("a world that failed its test, or is easier than the tested one, is for sanity only", "[ranking]") {
   CHECK(sentences("mall", 16, 12).empty());
@@ -72,3 +70,5 @@ TEST_CASE("the table of tested worlds is read with its mistakes", "[ranking]") {
       Catch::Contains("unknown factor 'plans'"));
   std::filesystem::remove(path);
 }
+
+}  // namespace tested_worlds_test

@@ -8,6 +8,8 @@
 #include "host/report/replay/page_packing.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace report_page_test {
+
 using namespace dmrp::host;
 
 TEST_CASE("the page contains its parts, and no part ends another", "[report]") {
@@ -30,3 +32,5 @@ TEST_CASE("the page contains its parts, and no part ends another", "[report]") {
   std::filesystem::remove(folder / "page.js");
   CHECK_THROWS_AS(report_page(folder.path(), "page", "{}", {}), InputError);
 }
+
+}  // namespace report_page_test

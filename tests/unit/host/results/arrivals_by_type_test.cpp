@@ -5,12 +5,12 @@
 
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace arrivals_by_type_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_layout;
 using dmrp::test::example_trial;
 using dmrp::test::two_planners;
-
-namespace {
 
 std::vector<ScenarioFacts> mall_of(const std::vector<std::string>& types) {
   ScenarioFacts mall;
@@ -19,8 +19,6 @@ std::vector<ScenarioFacts> mall_of(const std::vector<std::string>& types) {
   mall.robot_types = types;
   return {mall};
 }
-
-}  // namespace
 
 TEST_CASE("arrivals are counted by type of robot where there are several", "[results]") {
   const std::string arrived = example_layout().arrived;
@@ -37,3 +35,5 @@ TEST_CASE("arrivals are counted by type of robot where there are several", "[res
   for (TrialRecord& trial : trials) trial.values.clear();
   CHECK(arrivals_line(arrived, mall_of({"default", "tug"}), trials).empty());
 }
+
+}  // namespace arrivals_by_type_test

@@ -8,6 +8,8 @@
 #include "host/results/trials_csv.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace csv_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
@@ -44,3 +46,5 @@ TEST_CASE("each swept key is a column of trials.csv and summary.csv", "[results]
   CHECK_THAT(summary, Catch::Contains(",pedestrian_model,people,simulation.tracking,global_planner.weight,metric,"));
   CHECK_THAT(summary, Catch::Contains("mall,2,B,DWA,crowd,12,,1.5,done,"));
 }
+
+}  // namespace csv_test

@@ -10,13 +10,13 @@
 #include "host/files/atomic_file.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace database_test {
+
 using namespace dmrp::host;
 using dmrp::test::content_of;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
 using dmrp::test::ScratchFolder;
-
-namespace {
 
 bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof(double)) == 0;
@@ -104,8 +104,6 @@ TrialRecord full_trial(std::uint64_t id) {
   trial.faults.push_back({"exit", "", "", 0, -1, 0, "", ""});
   return trial;
 }
-
-}  // namespace
 
 TEST_CASE("trials read from the database equal the written ones bit by bit", "[results]") {
   const ScratchFolder folder;
@@ -371,3 +369,5 @@ TEST_CASE("a fault is added to a trial that has ended, and makes it one to try a
   CHECK(database.finished_trials() == std::vector<std::uint64_t>{3});
   CHECK(database.finished_trials(ResultsDatabase::Finished::without_faults).empty());
 }
+
+}  // namespace database_test

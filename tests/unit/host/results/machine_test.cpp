@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace machine_test {
+
 using namespace dmrp::host;
 
 TEST_CASE("the level of a CPU is the highest whose features are all present", "[results]") {
@@ -18,3 +20,5 @@ TEST_CASE("the level of a CPU is the highest whose features are all present", "[
   CHECK(level(v3 + " avx512f avx512bw avx512cd avx512dq avx512vl") == "x86-64-v4");
   CHECK(cpu_features_of("Features\t: fp asimd\n") == std::vector<std::string>{"asimd", "fp"});
 }
+
+}  // namespace machine_test

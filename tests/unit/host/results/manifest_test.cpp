@@ -7,6 +7,8 @@
 #include "host/files/sha256.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace manifest_test {
+
 using namespace dmrp::host;
 using dmrp::test::ScratchFolder;
 
@@ -93,3 +95,5 @@ TEST_CASE("identities differ by keys, with hashes cut short", "[results]") {
   CHECK(found[2].key == "robot.v_max");
   CHECK(found[2].before == "missing");
 }
+
+}  // namespace manifest_test

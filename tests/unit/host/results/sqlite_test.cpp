@@ -6,6 +6,8 @@
 #include "host/errors/machine_error.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace sqlite_test {
+
 using namespace dmrp::host;
 
 TEST_CASE("a full database is a failure of the machine, a mistake in SQL is not", "[results]") {
@@ -19,3 +21,5 @@ TEST_CASE("a full database is a failure of the machine, a mistake in SQL is not"
   CHECK_THROWS_AS(SqliteStatement(connection, fill).run(), MachineError);
   CHECK_THROWS_AS(connection.execute("INSERT INTO nothing VALUES (1)"), SqliteError);
 }
+
+}  // namespace sqlite_test

@@ -5,6 +5,8 @@
 
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace closing_line_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_layout;
 using dmrp::test::example_trial;
@@ -51,3 +53,5 @@ TEST_CASE("the run directory is printed with its files", "[terminal]") {
   const std::vector<std::string> files{"results.sqlite", "traces/"};
   CHECK(files_line("runs/quickstart", files) == "runs/quickstart   results.sqlite  traces/");
 }
+
+}  // namespace closing_line_test

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+namespace display_width_test {
+
 using namespace dmrp::host;
 
 TEST_CASE("the width of a text is that on a terminal", "[terminal]") {
@@ -27,3 +29,5 @@ TEST_CASE("measuring a text leaves the locale as it is", "[terminal]") {
   CHECK(uselocale(nullptr) == before);
   CHECK(setlocale(LC_ALL, nullptr) == process);
 }
+
+}  // namespace display_width_test

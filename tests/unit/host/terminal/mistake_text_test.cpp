@@ -6,7 +6,7 @@
 
 #include "host/errors/mistakes.hpp"
 
-namespace {
+namespace mistake_text_test {
 
 using dmrp::host::InputError;
 using dmrp::host::mistake_text;
@@ -17,8 +17,6 @@ InputError mistake(std::size_t line, std::size_t column, const std::string& text
   return InputError("a.toml:" + std::to_string(line) + ":" + std::to_string(column) + ": " + said,
                     {"a.toml", line, column, text});
 }
-
-}  // namespace
 
 TEST_CASE("a mistake is its line, the file's line and a caret") {
   CHECK(mistake_text(mistake(4, 10, "trials = \"three\""), false) ==
@@ -101,3 +99,5 @@ TEST_CASE("reading ends after a hundred mistakes") {
     CHECK(mistake_text(error, false).ends_with("a.toml:100:1: said\nthe first 100 mistakes; there may be more\n"));
   }
 }
+
+}  // namespace mistake_text_test

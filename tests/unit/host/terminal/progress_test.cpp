@@ -8,13 +8,11 @@
 #include "host/terminal/colors.hpp"
 #include "host/terminal/display_width.hpp"
 
+namespace progress_test {
+
 using namespace dmrp::host;
 
-namespace {
-
 const std::string heading = "quickstart · mall · 4 robots, 12 people · 3 trials";
-
-}  // namespace
 
 TEST_CASE("where the heading has room beside the bar, every line shows both") {
   REQUIRE(has_room_beside_bar(heading, 100, 119));
@@ -43,3 +41,5 @@ TEST_CASE("a terminal has colours unless NO_COLOR is set or it is dumb") {
   CHECK_FALSE(allows_colors("dumb", nullptr));
   CHECK_FALSE(allows_colors(nullptr, nullptr));
 }
+
+}  // namespace progress_test

@@ -6,13 +6,13 @@
 #include "host/findings/summary.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace summary_table_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_layout;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
 using dmrp::test::two_planners;
-
-namespace {
 
 std::string table_of(const std::vector<TrialRecord>& trials, const TableStyle& style = {},
                      const std::vector<BestMark>& marks = {}) {
@@ -24,8 +24,6 @@ std::string table_of(const std::vector<TrialRecord>& trials, const TableStyle& s
 std::vector<BestMark> two_marks() {
   return {{{"mall", 2, "CBS", "DWA", "crowd"}, "time"}, {{"mall", 2, "A*", "DWA", "crowd"}, "speed"}};
 }
-
-}  // namespace
 
 TEST_CASE("the table of one combination is aligned and marks nothing", "[terminal]") {
   CHECK(table_of({example_trial(0, "CBS", 0, 40.0, 0.5), example_trial(1, "CBS", 1, 43.5, 0.52)}) ==
@@ -128,3 +126,5 @@ TEST_CASE("a table that is too wide continues below", "[terminal]") {
 TEST_CASE("no trials, no table", "[terminal]") {
   CHECK(table_of({}).empty());
 }
+
+}  // namespace summary_table_test

@@ -9,10 +9,10 @@
 #include "host/results/result_bytes.hpp"
 #include "host/results/result_json.hpp"
 
+namespace ask_metric_test {
+
 using namespace dmrp::host;
 using nlohmann::json;
-
-namespace {
 
 constexpr std::uint32_t robots = 2;
 
@@ -36,8 +36,6 @@ bool is_refused(const MetricResult& result) {
     return true;
   }
 }
-
-}  // namespace
 
 TEST_CASE("a metric gives only what it declares, and that once") {
   CHECK_FALSE(is_refused({0, {good, {"length", DMRP_SUBJECT_ROBOT, 1, {}, 1.0}}, {}}));
@@ -95,3 +93,5 @@ TEST_CASE("numbers that an integer cannot hold are not taken for others") {
     CHECK_THROWS_AS(wrong.get<MetricResult>(), UnbelievableMessage);
   }
 }
+
+}  // namespace ask_metric_test

@@ -12,9 +12,9 @@
 #include "host/program/monotonic_time.hpp"
 #include "host/trial/plans/planning.hpp"
 
-using namespace dmrp::host;
+namespace calls_test {
 
-namespace {
+using namespace dmrp::host;
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -39,8 +39,6 @@ struct Guarded {
     throw std::runtime_error("no fault");
   }
 };
-
-}  // namespace
 
 TEST_CASE("statuses that leave the plugin usable come back with the time that the call took") {
   Guarded guarded;
@@ -226,3 +224,5 @@ TEST_CASE("the path to drive ends where the goal is, not at its cell") {
     CHECK(path[4].goal_index == 1);
   }
 }
+
+}  // namespace calls_test

@@ -19,12 +19,12 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
+namespace dispatcher_test {
+
 using namespace dmrp::host;
 namespace core = dmrp::core;
 namespace test = dmrp::test;
 namespace toolkit = dmrp::toolkit;
-
-namespace {
 
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t second_ns = 1'000'000'000;
@@ -103,8 +103,6 @@ struct Stage {
 dmrp_robot_sample robot_of(const dmrp_sample& sample, std::size_t robot) {
   return *DMRP_AT(dmrp_robot_sample, sample.robots, sample.robot_stride, robot);
 }
-
-}  // namespace
 
 TEST_CASE("a controller gets a full path once") {
   Stage stage(lanes({4.8}));
@@ -305,8 +303,6 @@ TEST_CASE("a robot that strays is planned anew from where it is") {
   for (std::size_t i = 1; i < times.size(); ++i) CHECK(times[i] - times[i - 1] > 1.99);
 }
 
-namespace {
-
 // A hall of 14 x 14 cells with pillars, and 20 robots from random cells to random cells.
 core::Scenario crowded_hall(std::uint64_t seed) {
   toolkit::Stream random(seed, "crowded_hall");
@@ -432,8 +428,6 @@ std::size_t out_of_order(core::TraceReader& trace, std::size_t& pairs) {
     }
   return wrong;
 }
-
-}  // namespace
 
 TEST_CASE("execution in order: robots that dawdle pass shared cells as planned, and none waits for ever") {
   const auto dispatch = GENERATE(core::Dispatch::full_path, core::Dispatch::waypoint);
@@ -608,3 +602,5 @@ TEST_CASE("two robots that come toward each other both keep right") {
     if (std::abs(a.x - b.x) < 0.3) CHECK(b.y - a.y > 0.5);
   }
 }
+
+}  // namespace dispatcher_test

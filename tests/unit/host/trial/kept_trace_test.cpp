@@ -10,12 +10,12 @@
 
 #include "tests/unit/core/trace/trace_example.hpp"
 
+namespace kept_trace_test {
+
 namespace fs = std::filesystem;
 namespace core = dmrp::core;
 using dmrp::host::KeptTrace;
 using dmrp::test::example_trace;
-
-namespace {
 
 class ScratchFolder {
  public:
@@ -47,8 +47,6 @@ core::TraceBytes pass(core::TraceRecords& records) {
   records.rewind();
   return bytes;
 }
-
-}  // namespace
 
 TEST_CASE("A trace that is not recorded is read as it was written, from memory or from a spool") {
   const ScratchFolder folder;
@@ -91,3 +89,5 @@ TEST_CASE("Where no spool can be made, a large trace says so") {
   KeptTrace kept({}, folder / "gone" / "scratch", 0);
   CHECK_THROWS_AS(write_example(kept), std::system_error);
 }
+
+}  // namespace kept_trace_test

@@ -6,6 +6,8 @@
 
 #include "tests/unit/host/trial/stage.hpp"
 
+namespace observation_test {
+
 using namespace dmrp;
 
 TEST_CASE("a controller sees how far the wheels of its car are turned") {
@@ -31,3 +33,5 @@ TEST_CASE("a controller sees how far the wheels of its car are turned") {
   // omega = v_x tan(steering) / wheelbase
   CHECK(steering_angle() == Approx(std::atan(0.2 * 0.4 / 0.2)).epsilon(1e-6));
 }
+
+}  // namespace observation_test

@@ -11,10 +11,10 @@
 
 #include "host/trial/robot_sensors.hpp"
 
+namespace robot_sensors_test {
+
 using namespace dmrp;
 using namespace dmrp::host;
-
-namespace {
 
 constexpr double any_heading = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t seed = 5;
@@ -93,8 +93,6 @@ int clusters_near(Sensors& sensors, dmrp_vec2 point, double reach_m) {
   }
   return count;
 }
-
-}  // namespace
 
 TEST_CASE("a visible robot comes as an agent, a hidden one not at all; without tracking only the costmap has it") {
   Hall hall;
@@ -178,3 +176,5 @@ TEST_CASE("noise leaves the world as it is") {
   CHECK(std::memcmp(&quiet.world->robots()[0].pose, &noisy.world->robots()[0].pose, sizeof(dmrp_pose)) == 0);
   CHECK(quiet.world->robot_agents()[1].velocity == noisy.world->robot_agents()[1].velocity);
 }
+
+}  // namespace robot_sensors_test

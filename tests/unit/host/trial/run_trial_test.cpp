@@ -16,11 +16,11 @@
 #include "tests/support/instance_pool.hpp"
 #include "tests/unit/host/trial/stage.hpp"
 
+namespace run_trial_test {
+
 using namespace dmrp::host;
 namespace core = dmrp::core;
 namespace test = dmrp::test;
-
-namespace {
 
 // Plugins that check what the host gives them.
 struct CheckedStage : test::Stage {
@@ -50,8 +50,6 @@ double system_of(const MetricResult& result, const std::string& name) {
       return value.value.value();
   throw std::runtime_error("no value of " + name);
 }
-
-}  // namespace
 
 TEST_CASE("a trial keeps its word to every plugin, and the next one does not remember it") {
   const std::size_t robots = GENERATE(std::size_t{1}, std::size_t{2});
@@ -318,3 +316,5 @@ TEST_CASE("every ending has its text") {
   CHECK(ending_text(DMRP_ENDING_DESERTED) == std::string("everybody left"));
   CHECK(ending_text(0) == std::string());
 }
+
+}  // namespace run_trial_test

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-using namespace dmrp::host;
+namespace trial_differences_test {
 
-namespace {
+using namespace dmrp::host;
 
 const std::vector<MetricColumn> metrics = {{"success", "1", 0, false, "", false},
                                            {"planning_time", "s", 0, true, "", false}};
@@ -26,8 +26,6 @@ TrialRecord example() {
 std::vector<std::string> found(const TrialRecord& now) {
   return trial_differences(example(), now, metrics);
 }
-
-}  // namespace
 
 TEST_CASE("equal trials have no difference, whatever the clock said") {
   TrialRecord now = example();
@@ -63,3 +61,5 @@ TEST_CASE("each difference of a trial is one line") {
                                                  "fault crash in org.example.mine step(): Segmentation fault is new"});
   }
 }
+
+}  // namespace trial_differences_test

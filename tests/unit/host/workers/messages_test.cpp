@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace messages_test {
 
 using namespace dmrp::host;
 using nlohmann::json;
@@ -16,8 +16,6 @@ template <class T>
 T through_text(const T& value) {
   return json::parse(json(value).dump()).template get<T>();
 }
-
-}  // namespace
 
 TEST_CASE("messages keep all their fields") {
   const Job job = through_text(Job{1ull << 40, "traces/trial_000007.mcap", "trial_000007.scratch", "one", "plan.csv"});
@@ -111,3 +109,5 @@ TEST_CASE("a result is sent in pieces, none of them large") {
   });
   CHECK(pieces == 1);
 }
+
+}  // namespace messages_test

@@ -8,7 +8,7 @@
 #include "host/process/fault_kind.hpp"
 #include "host/results/result_json.hpp"
 
-namespace {
+namespace open_trial_test {
 
 using namespace dmrp::host;
 using nlohmann::json;
@@ -40,8 +40,6 @@ class Conversation {
 
   OpenTrial trial_;
 };
-
-}  // namespace
 
 TEST_CASE("a trial has the values of its metrics, in the pieces that come") {
   Conversation worker;
@@ -94,3 +92,5 @@ TEST_CASE("a trial whose worker ends has its fault alone, and one that is run ag
   CHECK(worker.record().values.empty());
   CHECK(worker.record().faults.size() == (worker.record().outcome.empty() ? 0 : 1));
 }
+
+}  // namespace open_trial_test

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-using dmrp::host::PlannedTrials;
+namespace planned_trials_test {
 
-namespace {
+using dmrp::host::PlannedTrials;
 
 std::vector<std::uint64_t> rest_of(PlannedTrials trials) {
   std::vector<std::uint64_t> rest;
@@ -13,8 +13,6 @@ std::vector<std::uint64_t> rest_of(PlannedTrials trials) {
   CHECK(trials.left() == 0);
   return rest;
 }
-
-}  // namespace
 
 TEST_CASE("planned trials are those of the shard that are not finished") {
   using Trials = std::vector<std::uint64_t>;
@@ -30,3 +28,5 @@ TEST_CASE("planned trials are those of the shard that are not finished") {
   CHECK(PlannedTrials(1, 3, 10, {4}).left() == 2);
   CHECK(PlannedTrials(0, 1, 1ull << 40, {}).left() == 1ull << 40);  // no list of them
 }
+
+}  // namespace planned_trials_test

@@ -13,7 +13,7 @@
 #include "host/workers/scratch_folder.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
-namespace {
+namespace stored_file_test {
 
 namespace fs = std::filesystem;
 using namespace dmrp::host;
@@ -21,8 +21,6 @@ using namespace dmrp::host;
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
-
-}  // namespace
 
 TEST_CASE("a trace takes the place of an older one") {
   const dmrp::test::ScratchFolder folder;
@@ -76,3 +74,5 @@ TEST_CASE("scratch folders are apart, can be made again and leave nothing") {
   delete_scratch_folders(folder / ".");
   CHECK(fs::is_empty(folder / "."));
 }
+
+}  // namespace stored_file_test

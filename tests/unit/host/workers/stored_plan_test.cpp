@@ -10,10 +10,10 @@
 #include "host/errors/input_error.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace stored_plan_test {
+
 using namespace dmrp::host;
 using Catch::Matchers::Contains;
-
-namespace {
 
 const PlannedPaths example = {
     {{0.5, -0.0, dmrp::core::free_heading, 0, 0, 0}, {1.0 / 3.0, 5e-324, 3.25, 1'800'000'000, 1, 0}},
@@ -22,8 +22,6 @@ const PlannedPaths example = {
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
-
-}  // namespace
 
 TEST_CASE("a plan as CSV keeps its bits") {
   const dmrp::test::ScratchFolder folder;
@@ -109,3 +107,5 @@ TEST_CASE("trials share a plan by scenario, planner and repetition") {
   CHECK(plan_name({0, 1, 0, -1}, 3) != plan_name({0, 1, 0, -1}, 2));
   CHECK(plan_name({0, -1, -1, 0}, 3).empty());
 }
+
+}  // namespace stored_plan_test

@@ -7,16 +7,14 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace execution_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
-
-namespace {
 
 dmrp_call call(std::uint32_t kind, std::uint32_t robot, double milliseconds, std::int32_t status = DMRP_OK) {
   return {kind, robot, status, 0, std::llround(milliseconds * 1e6)};
 }
-
-}  // namespace
 
 TEST_CASE("path irregularity is the turning beyond the least that the goals need, per metre") {
   SyntheticTrial trial(1);
@@ -241,3 +239,5 @@ TEST_CASE("an intervention lasts until the next control tick") {
   CHECK(m.system("interventions") == 1.0);
   CHECK(m.system("intervention_time") == 4.0);
 }
+
+}  // namespace execution_test

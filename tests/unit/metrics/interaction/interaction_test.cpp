@@ -6,9 +6,9 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
-using namespace dmrp::test;
+namespace interaction_test {
 
-namespace {
+using namespace dmrp::test;
 
 // Two samples a second from 0 to `end_s`, the robots as `at_time` says.
 void fill(SyntheticTrial& trial, double begin_s, double end_s,
@@ -25,8 +25,6 @@ SyntheticTrial standing(const std::vector<dmrp_vec2>& places, const std::vector<
   trial.plan(paths);
   return trial;
 }
-
-}  // namespace
 
 TEST_CASE("the time without progress is told by its cause") {
   SyntheticTrial trial(1);
@@ -189,3 +187,5 @@ TEST_CASE("a robot that stands though nobody is in its way is counted") {
   CHECK(m.events[0].to_s == 15.0);
   CHECK(m.events[0].text == "robot 0 stands although nobody is in its way");
 }
+
+}  // namespace interaction_test

@@ -4,10 +4,10 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace arrivals_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
-
-namespace {
 
 const double free_heading = std::nan("");
 
@@ -16,8 +16,6 @@ dmrp_robot_sample heading_for(std::uint32_t goal_index) {
   robot.goal_index = goal_index;
   return robot;
 }
-
-}  // namespace
 
 TEST_CASE("flowtime is the sum, makespan the maximum of arrivals") {
   SyntheticTrial trial(3);
@@ -189,3 +187,5 @@ TEST_CASE("a robot that waits for another failed by the other's cause") {
     CHECK(success.events[3].robots == std::vector<std::uint32_t>{3});
   }
 }
+
+}  // namespace arrivals_test

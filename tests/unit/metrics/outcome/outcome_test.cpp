@@ -5,6 +5,8 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace outcome_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
 
@@ -218,3 +220,5 @@ TEST_CASE("speed is measured, not commanded, and includes sideways motion") {
   CHECK_THAT(m.system("mean_speed"), WithinAbs(0.5, 1e-15));  // 3-4-5
   CHECK(m.system("speed_sd") == 0.0);
 }
+
+}  // namespace outcome_test

@@ -6,9 +6,9 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
-using namespace dmrp::test;
+namespace ibtr_memory_test {
 
-namespace {
+using namespace dmrp::test;
 
 // What the C library has handed out, also as mappings of their own. (Sanitizers replace it and report 0.)
 std::size_t bytes_in_use() {
@@ -42,8 +42,8 @@ std::size_t bytes_kept(double apart_m) {
   return bytes_in_use() - before;
 }
 
-}  // namespace
-
 TEST_CASE("IBTR keeps nothing of robots that are far from each other") {
   CHECK(bytes_kept(50.0) < 4096);
 }
+
+}  // namespace ibtr_memory_test

@@ -4,10 +4,10 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace paper_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
-
-namespace {
 
 // A trial of one second a step with these speeds, standing at these places all the time (measured speed and position
 // are separate things to a metric).
@@ -25,8 +25,6 @@ SyntheticTrial crawling(const std::vector<dmrp_vec2>& places, const std::vector<
   trial.end(static_cast<double>(speeds[0].size()), std::vector<double>(places.size(), never));
   return trial;
 }
-
-}  // namespace
 
 // ---- STO
 
@@ -335,3 +333,5 @@ TEST_CASE("PFD uses the current plan, its second value the first plan") {
   CHECK_THAT(m.system("pfd"), WithinAbs(0.2, 1e-15));                // (0.5 + 0 + 0.1) / 3
   CHECK_THAT(m.system("pfd_initial"), WithinAbs(1.6 / 3.0, 1e-15));  // (0.5 + 0.5 + 0.6) / 3
 }
+
+}  // namespace paper_test

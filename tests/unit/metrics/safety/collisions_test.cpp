@@ -5,15 +5,13 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
-using namespace dmrp::test;
+namespace collisions_test {
 
-namespace {
+using namespace dmrp::test;
 
 constexpr std::uint32_t with_static = DMRP_CONTACT_STATIC;
 constexpr std::uint32_t with_robot = DMRP_CONTACT_ROBOT;
 constexpr std::uint32_t with_person = DMRP_CONTACT_PERSON;
-
-}  // namespace
 
 TEST_CASE("a lasting contact is one collision, from its first to its last sample") {
   SyntheticTrial trial(1);
@@ -170,3 +168,5 @@ TEST_CASE("a trial without contacts has 0 collisions") {
   CHECK(m.values.size() == 18);  // 6 names for the system and 2 robots
   CHECK(m.events.empty());
 }
+
+}  // namespace collisions_test

@@ -10,10 +10,10 @@
 #include "tests/support/draws.hpp"
 #include "tests/unit/metrics/safety/contact_scene.hpp"
 
+namespace contact_scenes_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 const std::vector<ContactScene>& scenes() {
   static const std::vector<ContactScene> read = read_contact_scenes(DMRP_CONTACT_SCENES);
@@ -111,8 +111,6 @@ ContactScene random_scene(std::uint64_t seed) {
   return scene;
 }
 
-}  // namespace
-
 TEST_CASE("a hundred scenes, half of them kept apart, five of each kind") {
   std::map<std::string, int> count;
   for (const ContactScene& scene : scenes()) ++count[scene.kind + " " + scene.set];
@@ -153,3 +151,5 @@ TEST_CASE("a robot without contact is safe, and a safe robot needs no excuse") {
   CHECK(contacts > 0);
   CHECK(excused > 0);
 }
+
+}  // namespace contact_scenes_test

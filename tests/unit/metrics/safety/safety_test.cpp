@@ -8,11 +8,11 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace safety_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 dmrp_person person(double x, double y, double v_x = 0.0, double v_y = 0.0, double radius_m = 0.3) {
   dmrp_person person{};
@@ -26,8 +26,6 @@ dmrp_robot_sample turned(dmrp_robot_sample robot, double theta) {
   robot.pose.theta = theta;
   return robot;
 }
-
-}  // namespace
 
 TEST_CASE("clearance and proxemics measure from the true outline of a polygonal robot") {
   SyntheticTrial trial(2);
@@ -251,3 +249,5 @@ TEST_CASE("time to collision agrees with simulation in small steps") {
   }
   CHECK(hits > 20);
 }
+
+}  // namespace safety_test

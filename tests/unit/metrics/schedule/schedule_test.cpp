@@ -4,17 +4,15 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
-using namespace dmrp::test;
+namespace schedule_test {
 
-namespace {
+using namespace dmrp::test;
 
 dmrp_robot_sample at_arc(double x, double progress_m) {
   dmrp_robot_sample robot = at(x, 0.0);
   robot.progress_m = progress_m;
   return robot;
 }
-
-}  // namespace
 
 TEST_CASE("schedule error: a waypoint is passed when the progress reaches it; waits count once") {
   SyntheticTrial trial(2);
@@ -129,3 +127,5 @@ TEST_CASE("conflicts at the root need a plan from cell to cell") {
   tour.planning_grid(7, 7).plan({{{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}}}).end(0.0);
   CHECK(std::isnan(measure("dmrp.metric.root_conflicts", tour).system("root_conflicts")));
 }
+
+}  // namespace schedule_test

@@ -4,10 +4,10 @@
 
 #include "tests/unit/metrics/synthetic_trial.hpp"
 
+namespace social_test {
+
 using namespace dmrp::test;
 using Catch::Matchers::WithinAbs;
-
-namespace {
 
 dmrp_person person(double x, double y, std::uint32_t group = 0) {
   dmrp_person person{};
@@ -33,8 +33,6 @@ dmrp_person walker(std::uint64_t id, dmrp_vec2 position, dmrp_vec2 target, doubl
   person.area_upper = {target.x + 1, target.y + 1};
   return person;
 }
-
-}  // namespace
 
 TEST_CASE("proxemics uses the nearest person's surface, and zones include their outer bounds") {
   // surfaces are 0.55 m nearer than centres
@@ -211,3 +209,5 @@ TEST_CASE("pedestrian progress without people is one undefined point") {
   CHECK(std::isnan(m.curves.at("pedestrian_progress").at(0.0)));
   CHECK(std::isnan(m.system("pedestrian_speed")));
 }
+
+}  // namespace social_test

@@ -7,14 +7,12 @@
 #include "pedestrians/collision_free_speed/speed_function.hpp"
 #include "tests/unit/pedestrians/walking_world.hpp"
 
+namespace collision_free_speed_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::distance;
 
-namespace {
-
 const std::string cfs = "dmrp.pedestrian.collision_free_speed";
-
-}  // namespace
 
 TEST_CASE("CFS: the speed is the gap over the time gap, between 0 and the desired speed") {
   using dmrp::pedestrians::permitted_speed;
@@ -124,3 +122,5 @@ TEST_CASE("CFS: two people who block each other at a door get through") {
   const auto is_through = [&] { return walk.people[0].position.y < 2.6 && walk.people[1].position.y < 2.6; };
   CHECK(walk.until(20.0, is_through));
 }
+
+}  // namespace collision_free_speed_test

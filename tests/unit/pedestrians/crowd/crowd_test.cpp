@@ -17,6 +17,8 @@
 #include "pedestrians/crowd/way_finding.hpp"
 #include "tests/unit/pedestrians/walking_world.hpp"
 
+namespace crowd_test {
+
 using namespace dmrp::pedestrians;
 using dmrp::toolkit::Stream;
 
@@ -273,3 +275,5 @@ TEST_CASE("a blocked person ignores people ahead who have farther to go") {
   const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, 1.0, no_slot};
   CHECK_FALSE(right_of_way.ignores(0, robot, {people.data(), people.size()}));
 }
+
+}  // namespace crowd_test

@@ -12,6 +12,8 @@
 #include "reciprocal/linear_program.hpp"
 #include "reciprocal/velocity_obstacle.hpp"
 
+namespace orca_parts_test {
+
 using namespace dmrp::pedestrians;
 using namespace dmrp::reciprocal;
 using dmrp::toolkit::cross;
@@ -20,8 +22,6 @@ using dmrp::toolkit::dot;
 using dmrp::toolkit::norm;
 using dmrp::toolkit::squared_norm;
 using dmrp::toolkit::Stream;
-
-namespace {
 
 constexpr double max_speed = 1.5;
 
@@ -97,8 +97,6 @@ double nearest_approach(const Encounter& met, double horizon_s) {
   const dmrp_segment way = {{0.0, 0.0}, met.approach * horizon_s};
   return dmrp::toolkit::distance(way, met.apart);
 }
-
-}  // namespace
 
 TEST_CASE("the velocity nearest to the preferred one equals that of exhaustive search") {
   Stream chance(1, "planes");
@@ -231,3 +229,5 @@ TEST_CASE("walls do not slow people who walk along them or toward a corner") {
   CHECK(v.x == Approx(0.7));
   CHECK(v.y == Approx(0.7));
 }
+
+}  // namespace orca_parts_test

@@ -7,14 +7,12 @@
 
 #include "tests/unit/pedestrians/walking_world.hpp"
 
+namespace orca_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::distance;
 
-namespace {
-
 const std::string orca = "dmrp.pedestrian.orca";
-
-}  // namespace
 
 TEST_CASE("ORCA: eight people on a circle change places") {
   const WalkingWorld world({20.0, 20.0}, {});
@@ -132,3 +130,5 @@ TEST_CASE("ORCA: velocities do not depend on the slots of people") {
   }
   for (std::size_t i = 0; i < 81; ++i) CHECK(one.velocities[i] == other.velocities[80 - i]);
 }
+
+}  // namespace orca_test

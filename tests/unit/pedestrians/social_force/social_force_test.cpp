@@ -8,14 +8,12 @@
 #include "pedestrians/social_force/headway.hpp"
 #include "tests/unit/pedestrians/walking_world.hpp"
 
+namespace social_force_test {
+
 using namespace dmrp::test;
 using dmrp::toolkit::distance;
 
-namespace {
-
 const std::string social_force = "dmrp.pedestrian.social_force";
-
-}  // namespace
 
 TEST_CASE("social force: a lone person reaches the desired speed with the time constant relaxation time / weight") {
   const WalkingWorld world({40.0, 20.0}, {});
@@ -219,3 +217,5 @@ TEST_CASE("social force: a group stays together where strangers separate") {
   CHECK(distance_after_walk(1) < 2.0);
   CHECK(distance_after_walk(1) > 0.6);
 }
+
+}  // namespace social_force_test

@@ -9,9 +9,9 @@
 #include "tests/unit/planners/random_case.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
-using namespace dmrp::test;
+namespace ecbs8_test {
 
-namespace {
+using namespace dmrp::test;
 
 const char* const library = "libdmrp_planners.so";
 const char* const ecbs8 = "dmrp.planner.ecbs8";
@@ -54,8 +54,6 @@ void check_solved(const PlanningCase& c, const Plan& plan, double suboptimality)
   REQUIRE(plan.statistics.at("cost") == Approx(cost_8(plan)).epsilon(1e-9));
   REQUIRE(plan.statistics.at("cost") <= suboptimality * plan.statistics.at("lower_bound"));
 }
-
-}  // namespace
 
 TEST_CASE("ECBS-8 keeps to its bound of the joint optimum on random small problems") {
   PluginUnderTest optimal(library, ecbs8, {{"suboptimality", 1.0}, {"node_limit", 3000}});
@@ -354,3 +352,5 @@ TEST_CASE("ECBS-8 solves 20 robots on three maps of 40x40 cells, and 50 on rando
   for (const char* map : {"gen-random-40-40-10", "gen-random-40-40-20", "gen-rooms-40-40"}) solve(map, 20, 10, 2.0);
   for (const double suboptimality : {1.2, 2.0}) solve("random-32-32-20", 50, 5, suboptimality);
 }
+
+}  // namespace ecbs8_test

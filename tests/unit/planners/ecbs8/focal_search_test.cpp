@@ -12,11 +12,11 @@
 #include "tests/unit/planners/planning_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
+namespace focal_search_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
 using ecbs8::Constraint;
-
-namespace {
 
 // One robot under random constraints of all kinds, among two others that walk at random.
 struct LowLevelCase {
@@ -154,8 +154,6 @@ std::optional<double> least_cost(const LowLevelCase& c) {
   return best;
 }
 
-}  // namespace
-
 TEST_CASE("focal search finds a path within its bound of the least cost, if there is one") {
   int found = 0;
   int none = 0;
@@ -202,3 +200,5 @@ TEST_CASE("focal search finds a path within its bound of the least cost, if ther
   CHECK(found > 2000);
   CHECK(none > 200);
 }
+
+}  // namespace focal_search_test

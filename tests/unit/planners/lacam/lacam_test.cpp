@@ -11,9 +11,9 @@
 #include "tests/unit/planners/random_case.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
-using namespace dmrp::test;
+namespace lacam_test {
 
-namespace {
+using namespace dmrp::test;
 
 const char* const library = "libdmrp_planners.so";
 const char* const lacam = "dmrp.planner.lacam";
@@ -27,8 +27,6 @@ PlanningCase tiny_case(uint64_t seed) {
   add_random_robots(random, c, 2 + random.below(2), true, true);
   return c;
 }
-
-}  // namespace
 
 TEST_CASE("LaCAM* run to the end returns the joint optimum, or proves that there is no plan") {
   PluginUnderTest planner(library, lacam, {{"iterations", 0}});
@@ -182,3 +180,5 @@ TEST_CASE("LaCAM* plans where prioritized planning jams") {
       REQUIRE(plan.statistics.at("cost") == plan.cost());
     }
 }
+
+}  // namespace lacam_test

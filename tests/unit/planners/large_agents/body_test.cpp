@@ -8,11 +8,11 @@
 #include "tests/unit/planners/large_agents/outlines.hpp"
 #include "tests/unit/planners/random.hpp"
 
+namespace body_test {
+
 using namespace dmrp::test;
 using dmrp::planners::Body;
 using dmrp::planners::Motion;
-
-namespace {
 
 // A disc, or a polygon of three to six corners on the circle, around a centre that is not the middle.
 CaseRobot random_robot(Random& random) {
@@ -37,8 +37,6 @@ Body body_of(const CaseRobot& robot) {
   footprint.part_stride = sizeof(part);
   return Body(footprint);
 }
-
-}  // namespace
 
 TEST_CASE("bodies overlap during a step as their outlines do", "[large_agents]") {
   constexpr double grazing_m = 1e-3;  // between two pieces of time
@@ -75,3 +73,5 @@ TEST_CASE("bodies overlap during a step as their outlines do", "[large_agents]")
   CHECK(overlaps > draws(250));
   CHECK(apart > draws(250));
 }
+
+}  // namespace body_test

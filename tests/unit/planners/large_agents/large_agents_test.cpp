@@ -11,9 +11,9 @@
 #include "tests/unit/planners/planner_variants.hpp"
 #include "tests/unit/planners/random_case.hpp"
 
-using namespace dmrp::test;
+namespace large_agents_test {
 
-namespace {
+using namespace dmrp::test;
 
 std::vector<dmrp_vec2> rectangle(double length_m, double width_m) {
   return {{-length_m / 2, -width_m / 2},
@@ -94,8 +94,6 @@ const std::vector<MixedPlanner> mixed_planners = {
     {eecbs, 1.5, {{"node_limit", std::int64_t{1000}}, {"suboptimality", 1.5}}},
     {"dmrp.planner.sipp", 0, {{"restarts", std::int64_t{20}}}},
 };
-
-}  // namespace
 
 TEST_CASE("robots of many shapes get plans without contact, within their bounds", "[large_agents]") {
   std::vector<std::unique_ptr<PluginUnderTest>> planners;
@@ -235,3 +233,5 @@ TEST_CASE("starts and goals that robots cannot share are named at once", "[large
           "robot 0 (radius 0.40 m) ends 0.50 m from robot 1 (radius 0.15 m): their outlines overlap");
   }
 }
+
+}  // namespace large_agents_test

@@ -12,14 +12,12 @@
 #include "tests/unit/planners/random_case.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
-using namespace dmrp::test;
+namespace lns_test {
 
-namespace {
+using namespace dmrp::test;
 
 const char* const library = "libdmrp_planners.so";
 const char* const lns = "dmrp.planner.lns";
-
-}  // namespace
 
 TEST_CASE("large neighborhood search solves every solvable small problem within 5 % of the joint optimum") {
   PluginUnderTest planner(library, lns, {{"iterations", 2000}});
@@ -176,3 +174,5 @@ TEST_CASE("large neighborhood search begins with a prioritized plan as long as t
   REQUIRE(plan.status == DMRP_OK);
   CHECK(plan.statistics.at("first_cost") <= prioritized.cost());
 }
+
+}  // namespace lns_test

@@ -7,6 +7,8 @@
 #include "planners/mapf/solvability.hpp"
 #include "tests/unit/planners/mapf/problem_case.hpp"
 
+namespace grid_graph_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
 
@@ -65,3 +67,5 @@ TEST_CASE("joint positions prove that there is no plan, up to their limit") {
   solvable.robot({0, 0}, {{2, 0}}).robot({2, 0}, {{0, 0}});
   CHECK_FALSE(find_joint_obstruction(problem_of(solvable), 1000, never()));
 }
+
+}  // namespace grid_graph_test

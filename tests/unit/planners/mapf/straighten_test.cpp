@@ -9,10 +9,10 @@
 #include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
+namespace straighten_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
-
-namespace {
 
 using Paths = std::vector<std::vector<Location>>;
 constexpr int64_t no_limit = int64_t{1} << 40;
@@ -177,8 +177,6 @@ std::int32_t straighten_all(Walks& walks, int64_t work_limit, bool stopped = fal
   return straighten(walks.problem, *tables, walks.paths, work_limit, stop);
 }
 
-}  // namespace
-
 TEST_CASE("straightening leaves no robot a path with fewer turns among the others'") {
   int saved = 0;
   int tours = 0;
@@ -280,3 +278,5 @@ TEST_CASE("straightening a staircase") {
     CHECK(makes_tour(problem.agents[0], paths[0]));
   }
 }
+
+}  // namespace straighten_test

@@ -9,14 +9,12 @@
 #include "tests/unit/planners/random_case.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
-using namespace dmrp::test;
+namespace pibt_test {
 
-namespace {
+using namespace dmrp::test;
 
 const char* const library = "libdmrp_planners.so";
 const char* const pibt = "dmrp.planner.pibt";
-
-}  // namespace
 
 TEST_CASE("PIBT's plans of random small problems are valid, and it proves nothing wrong") {
   PluginUnderTest planner(library, pibt, {{"step_limit", 300}});
@@ -86,3 +84,5 @@ TEST_CASE("PIBT gives up after its steps or at a stop, and gives the same bits f
   }
   CHECK(differ > 3);
 }
+
+}  // namespace pibt_test

@@ -12,11 +12,11 @@
 #include "tests/unit/planners/random_case.hpp"
 #include "tests/unit/planners/stopping.hpp"
 
+namespace sipp_test {
+
 using namespace dmrp::test;
 using dmrp::planners::Location;
 using dmrp::planners::SafeIntervals;
-
-namespace {
 
 const char* const library = "libdmrp_planners.so";
 const char* const sipp = "dmrp.planner.sipp";
@@ -56,8 +56,6 @@ std::optional<int> sum_alone(const PlanningCase& c) {
   }
   return sum;
 }
-
-}  // namespace
 
 TEST_CASE("SIPP describes itself") {
   const dmrp_descriptor* descriptor = PluginLibrary::load(library).find(sipp);
@@ -328,8 +326,6 @@ TEST_CASE("occupations follow the paths added and removed") {
   }
 }
 
-namespace {
-
 void check_movingai(const std::string& map, int robots) {
   const auto data = test_data();
   if (!data) {
@@ -348,8 +344,6 @@ void check_movingai(const std::string& map, int robots) {
   }
 }
 
-}  // namespace
-
 TEST_CASE("SIPP solves 200 robots on random-32-32-20") {
   check_movingai("random-32-32-20", 200);
 }
@@ -362,3 +356,5 @@ TEST_CASE("SIPP solves 80 robots in a maze and in rooms") {
   check_movingai("maze-32-32-2", 80);
   check_movingai("room-32-32-4", 80);
 }
+
+}  // namespace sipp_test

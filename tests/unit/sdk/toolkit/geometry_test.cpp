@@ -19,9 +19,9 @@
 #include <limits>
 #include <vector>
 
-using namespace dmrp::toolkit;
+namespace geometry_test {
 
-namespace {
+using namespace dmrp::toolkit;
 
 const double infinity = std::numeric_limits<double>::infinity();
 
@@ -75,8 +75,6 @@ double least_along(const dmrp_segment& segment, const Measure& measure) {
 }
 
 const std::vector<dmrp_vec2> unit_square = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
-
-}  // namespace
 
 TEST_CASE("wrap keeps the direction and gives more than -pi, at most pi", "[toolkit]") {
   CHECK(wrap(0.0) == 0.0);
@@ -477,3 +475,5 @@ TEST_CASE("rays agree with sphere tracing", "[toolkit]") {
   }
   CHECK(hits > 50);
 }
+
+}  // namespace geometry_test

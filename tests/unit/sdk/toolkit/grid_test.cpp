@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-using namespace dmrp::toolkit;
+namespace grid_test {
 
-namespace {
+using namespace dmrp::toolkit;
 
 const double infinity = std::numeric_limits<double>::infinity();
 
@@ -106,8 +106,6 @@ double walk(const NavigationField& field, dmrp_vec2 from, const Rectangle& targe
   }
   return walked + distance(target, from);
 }
-
-}  // namespace
 
 TEST_CASE("directions are the bits of an edge mask", "[toolkit]") {
   CHECK(direction_of(1, 0) == 0);
@@ -469,3 +467,5 @@ TEST_CASE("neighbouring series have different colours", "[toolkit]") {
   CHECK(colors.size() == 8);
   CHECK(series_color(8) == series_color(0));
 }
+
+}  // namespace grid_test

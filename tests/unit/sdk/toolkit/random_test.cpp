@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-using namespace dmrp::toolkit;
+namespace random_test {
 
-namespace {
+using namespace dmrp::toolkit;
 
 using Block = std::array<std::uint32_t, 4>;
 
@@ -41,8 +41,6 @@ double density(double z) {
 double upper_tail(double z) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
-
-}  // namespace
 
 // kat_vectors of the Random123 distribution (Salmon et al., D. E. Shaw Research), lines "philox4x32 10".
 TEST_CASE("Philox4x32-10 gives the published vectors", "[toolkit]") {
@@ -226,3 +224,5 @@ TEST_CASE("shuffling gives every order equally often and loses nothing", "[toolk
   stream.shuffle(none);
   CHECK(none.empty());
 }
+
+}  // namespace random_test

@@ -14,13 +14,13 @@
 #include "tests/unit/host/ranking/ranking_example.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
+namespace report_data_test {
+
 using namespace dmrp::host;
 using dmrp::test::example_metrics;
 using dmrp::test::example_trial;
 using dmrp::test::system_number;
 using nlohmann::json;
-
-namespace {
 
 const std::vector<std::string> failure_metrics{"done"};
 
@@ -97,8 +97,6 @@ const json& comparison(const json& data, const std::string& metric, const std::s
     if (one["metric"] == metric && one["varied"] == varied) return one;
   throw std::runtime_error("no comparison of " + metric);
 }
-
-}  // namespace
 
 TEST_CASE("a report's summaries are the numbers of summary.csv", "[report]") {
   std::vector<TrialRecord> trials = trials_of({{"A", {40.0, 43.25, std::nullopt, 41.0, 47.0}}, {"B", {50.1, 49.3}}});
@@ -406,3 +404,5 @@ TEST_CASE("layouts of reports are checked", "[report]") {
   CHECK(shipped.comparisons.size() >= 3);
   CHECK(shipped.diagnosis.y.size() == 4);
 }
+
+}  // namespace report_data_test

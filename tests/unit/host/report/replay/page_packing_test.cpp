@@ -6,8 +6,10 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-namespace dmrp::host {
-namespace {
+namespace page_packing_test {
+
+using namespace dmrp;
+using namespace dmrp::host;
 
 std::string unzipped(const std::string& packed) {
   z_stream stream{};
@@ -40,5 +42,4 @@ TEST_CASE("base64 matches RFC 4648, section 10", "[report]") {
   CHECK(base64(std::string("\0\xff\xfe", 3)) == "AP/+");
 }
 
-}  // namespace
-}  // namespace dmrp::host
+}  // namespace page_packing_test

@@ -14,9 +14,10 @@
 #include "tests/unit/core/trace/trace_example.hpp"
 #include "tests/unit/core/trace/trace_in_memory.hpp"
 
-namespace dmrp::host {
-namespace {
+namespace replay_data_test {
 
+using namespace dmrp;
+using namespace dmrp::host;
 using nlohmann::json;
 
 std::vector<std::int64_t> summed(const json& differences) {
@@ -32,7 +33,7 @@ json replay_of(const core::TraceBytes& bytes, const TrialRecord& trial = {}) {
 }
 
 TEST_CASE("a replay has ten samples a second and the last, to half a millimetre", "[report]") {
-  const core::TraceBytes bytes = test::example_trace(23);  // 50 Hz: 0 to 440 ms
+  const core::TraceBytes bytes = dmrp::test::example_trace(23);  // 50 Hz: 0 to 440 ms
   const json replay = replay_of(bytes);
   const std::vector<std::int64_t> times = summed(replay["times"]);
   CHECK(times == std::vector<std::int64_t>{0, 100, 200, 300, 400, 440});
@@ -55,8 +56,8 @@ TEST_CASE("a replay has ten samples a second and the last, to half a millimetre"
 }
 
 TEST_CASE("a replay has the current plan, the states, and the curves up to the end of a robot's task", "[report]") {
-  const json replay = replay_of(test::example_trace(20));  // the second plan is in force from sample 10, 200 ms
-  CHECK(replay["plan"] == json{0, 0, 2, 2});               // the second of three records gave no plan
+  const json replay = replay_of(dmrp::test::example_trace(20));  // the second plan is in force from sample 10, 200 ms
+  CHECK(replay["plan"] == json{0, 0, 2, 2});                     // the second of three records gave no plan
   CHECK(replay["plans"].size() == 3);
   CHECK(replay["plans"][1]["paths"].empty());
   CHECK(summed(replay["plans"][0]["paths"][0]["x"]) == std::vector<std::int64_t>{500, 1500});
@@ -85,7 +86,7 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
 }
 
 TEST_CASE("a robot says how it is driven, if not by two wheels", "[report]") {
-  const core::TraceBytes bytes = test::example_trace(1);
+  const core::TraceBytes bytes = dmrp::test::example_trace(1);
   const core::TraceReader trace(bytes);
   dmrp_robot robot = trace.world().robots[0];
   dmrp_limits limits = *robot.limits;
@@ -102,8 +103,8 @@ TEST_CASE("a robot says how it is driven, if not by two wheels", "[report]") {
 }
 
 TEST_CASE("without a plan the robots stand at their starts", "[report]") {
-  const test::ExampleWorld world;
-  test::TraceInMemory trace(world.world);
+  const dmrp::test::ExampleWorld world;
+  dmrp::test::TraceInMemory trace(world.world);
   const json replay = replay_of(trace.bytes());
   CHECK(replay["times"] == json::array({0}));
   CHECK(replay["plan"] == json{0, -1});
@@ -114,7 +115,7 @@ TEST_CASE("without a plan the robots stand at their starts", "[report]") {
 }
 
 TEST_CASE("each person has a track from entering to leaving", "[report]") {
-  const json replay = replay_of(test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
+  const json replay = replay_of(dmrp::test::example_trace(11));  // samples at 0, 100 and 200 ms: k = 0, 5, 10
   const json& people = replay["people"];
   REQUIRE(people.size() == 4);  // one stays; the other place is somebody else's at each sample
   CHECK(people[0]["id"] == 41);
@@ -126,10 +127,10 @@ TEST_CASE("each person has a track from entering to leaving", "[report]") {
 }
 
 TEST_CASE("headings are unwrapped", "[report]") {
-  const test::ExampleWorld world;
-  test::TraceInMemory trace(world.world);
+  const dmrp::test::ExampleWorld world;
+  dmrp::test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 4; ++k) {
-    test::ExampleSample at(5 * k, nullptr);
+    dmrp::test::ExampleSample at(5 * k, nullptr);
     at.sample.contact_count = 0;
     at.robots[0].pose.theta = std::remainder(3.0 + 0.2 * static_cast<double>(k), 2.0 * std::acos(-1.0));
     trace->sample(at.sample);
@@ -142,11 +143,11 @@ TEST_CASE("headings are unwrapped", "[report]") {
 }
 
 TEST_CASE("scans are in centimetres, with at most 180 beams", "[report]") {
-  const test::ExampleWorld world;
-  test::TraceInMemory trace(world.world);
+  const dmrp::test::ExampleWorld world;
+  dmrp::test::TraceInMemory trace(world.world);
   std::vector<float> ranges(360, std::numeric_limits<float>::infinity());
   for (std::int64_t k = 0; k <= 10; ++k) {  // every 20 ms; scans at 0 and at 200 ms, of the second robot
-    test::ExampleSample at(k, nullptr);
+    dmrp::test::ExampleSample at(k, nullptr);
     at.sample.contact_count = 0;
     trace->sample(at.sample);
     if (k % 10 != 0) continue;
@@ -185,7 +186,7 @@ TEST_CASE("contacts are events with fault and depth, besides metric events", "[r
   event.to_ns = 2'250'000'000;
   event.robots = {0, 1};
   event.text = "they block each other";
-  const json replay = replay_of(test::example_trace(4), trial);  // contacts in samples 0 and 3
+  const json replay = replay_of(dmrp::test::example_trace(4), trial);  // contacts in samples 0 and 3
   const json& contacts = replay["contacts"];
   REQUIRE(contacts.size() == 4);  // the first begins anew each time; the person is another one each time
   CHECK(contacts[0] == json{{"kind", "static"},
@@ -210,10 +211,10 @@ TEST_CASE("contacts are events with fault and depth, besides metric events", "[r
 }
 
 TEST_CASE("a lasting contact is one event", "[report]") {
-  const test::ExampleWorld world;
-  test::TraceInMemory trace(world.world);
+  const dmrp::test::ExampleWorld world;
+  dmrp::test::TraceInMemory trace(world.world);
   for (std::int64_t k = 0; k < 5; ++k) {
-    test::ExampleSample at(k, nullptr);
+    dmrp::test::ExampleSample at(k, nullptr);
     at.contacts[0] = {DMRP_CONTACT_ROBOT,
                       k == 0 ? DMRP_CONTACT_BEGINS : 0U,
                       0,
@@ -231,5 +232,4 @@ TEST_CASE("a lasting contact is one event", "[report]") {
   CHECK(contacts[0]["fault"] == "none");
 }
 
-}  // namespace
-}  // namespace dmrp::host
+}  // namespace replay_data_test

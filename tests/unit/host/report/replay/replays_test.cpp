@@ -16,10 +16,11 @@
 #include "tests/unit/core/trace/trace_example.hpp"
 #include "tests/unit/host/results/results_example.hpp"
 
-namespace dmrp::host {
-namespace {
+namespace replays_test {
 
-using test::example_trial;
+using namespace dmrp;
+using namespace dmrp::host;
+using dmrp::test::example_trial;
 
 // Three repetitions of two planners: A takes 30, 10 and 20 s, B arrives never.
 std::vector<TrialRecord> two_planners() {
@@ -33,7 +34,7 @@ std::vector<std::pair<std::uint64_t, std::string>> candidates_of(const std::vect
                                                                  const std::vector<std::string>& rank_by,
                                                                  const std::vector<std::uint64_t>& asked = {}) {
   std::vector<std::pair<std::uint64_t, std::string>> list;
-  for (const ReplayCandidate& candidate : replay_candidates(trials, test::example_metrics(), rank_by, asked))
+  for (const ReplayCandidate& candidate : replay_candidates(trials, dmrp::test::example_metrics(), rank_by, asked))
     list.emplace_back(trials[candidate.trial].id, candidate.why);
   return list;
 }
@@ -73,7 +74,7 @@ class Run {
     std::filesystem::create_directory(folder_ / "traces");
     for (const std::uint64_t id : traced) {
       core::TraceFileWriter file(trace(id));
-      test::example_trace(200, [&](std::int64_t t_ns, auto record) { file.write(t_ns, record); });
+      dmrp::test::example_trace(200, [&](std::int64_t t_ns, auto record) { file.write(t_ns, record); });
       file.finish();
     }
   }
@@ -83,14 +84,14 @@ class Run {
   }
 
  private:
-  test::ScratchFolder folder_;
+  dmrp::test::ScratchFolder folder_;
 };
 
 TEST_CASE("replays are sorted by id with all reasons, and omitted ones are counted", "[report]") {
   const Run run({0, 1, 3, 4});
   std::ofstream(run.trace(3), std::ios::trunc) << "no trace";
   const Replays replays =
-      encode_replays(run.path(), two_planners(), test::example_metrics(), {{"time", "speed"}, 1'000'000, {}});
+      encode_replays(run.path(), two_planners(), dmrp::test::example_metrics(), {{"time", "speed"}, 1'000'000, {}});
   REQUIRE(replays.replays.size() == 3);
   CHECK(replays.replays[0].trial == 0);
   CHECK(replays.replays[0].why == std::vector<std::string>{"worst"});
@@ -107,7 +108,7 @@ TEST_CASE("replays are sorted by id with all reasons, and omitted ones are count
   CHECK(replays.omitted[3].why == "failure");
   CHECK(replays.omitted[3].trials == 1);
 
-  const core::TraceBytes bytes = test::example_trace(200);
+  const core::TraceBytes bytes = dmrp::test::example_trace(200);
   core::TraceReader trace(bytes);
   CHECK(replays.replays[0].packed == base64(gzip(replay_json(trace, two_planners()[0]))));
 }
@@ -115,7 +116,7 @@ TEST_CASE("replays are sorted by id with all reasons, and omitted ones are count
 TEST_CASE("the budget is spent by priority", "[report]") {
   const Run run({0, 1, 2, 3, 4, 5});
   const ReplayPolicy all{{"time", "speed"}, 1'000'000, {}};
-  const Replays everything = encode_replays(run.path(), two_planners(), test::example_metrics(), all);
+  const Replays everything = encode_replays(run.path(), two_planners(), dmrp::test::example_metrics(), all);
   REQUIRE(everything.replays.size() == 5);
   CHECK(everything.omitted.empty());
   std::map<std::uint64_t, std::size_t> bytes;
@@ -123,7 +124,7 @@ TEST_CASE("the budget is spent by priority", "[report]") {
 
   // room for the two medians, 4 and 5, exactly
   const ReplayPolicy little{{"time", "speed"}, bytes[4] + bytes[5], {}};
-  const Replays few = encode_replays(run.path(), two_planners(), test::example_metrics(), little);
+  const Replays few = encode_replays(run.path(), two_planners(), dmrp::test::example_metrics(), little);
   REQUIRE(few.replays.size() == 2);
   CHECK(few.replays[0].trial == 4);
   CHECK(few.replays[1].trial == 5);
@@ -135,5 +136,4 @@ TEST_CASE("the budget is spent by priority", "[report]") {
   CHECK(few.omitted[1].trials == 2);
 }
 
-}  // namespace
-}  // namespace dmrp::host
+}  // namespace replays_test

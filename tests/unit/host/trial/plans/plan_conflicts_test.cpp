@@ -9,7 +9,7 @@
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
 
-namespace {
+namespace plan_conflicts_test {
 
 using namespace dmrp::host;
 using Cells = std::vector<PlanCell>;
@@ -130,8 +130,6 @@ PlannedPaths random_discs(std::uint64_t seed, std::vector<double>& radii_m) {
   return paths;
 }
 
-}  // namespace
-
 TEST_CASE("conflicts of random walks are those that a comparison of all pairs finds") {
   std::uint64_t conflicts = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
@@ -168,3 +166,5 @@ TEST_CASE("plans without robots have no conflicts") {
   CHECK(find_step_conflicts({}, points).count == 0);
   CHECK(find_disc_conflicts({}, {}).count == 0);
 }
+
+}  // namespace plan_conflicts_test

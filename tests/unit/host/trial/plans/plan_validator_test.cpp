@@ -8,7 +8,7 @@
 
 #include "host/trial/plans/planning.hpp"
 
-namespace {
+namespace plan_validator_test {
 
 using namespace dmrp::host;
 
@@ -146,8 +146,6 @@ PlanVerdict conflicts_of(const std::vector<Cell>& a, const std::vector<Cell>& b,
   CHECK(one.first_conflict == other.first_conflict);
   return one;
 }
-
-}  // namespace
 
 TEST_CASE("each robot's moves are judged on its own grid") {
   Case c({path({{0, 0}, {1, 0}}), path({{0, 2}, {1, 2}})});
@@ -458,3 +456,5 @@ TEST_CASE("a partial path heads for a later goal only after it has been at the o
   c.set_goals(0, {{1, 1}, {5, 0}});
   CHECK_FALSE(error_of(c).empty());
 }
+
+}  // namespace plan_validator_test

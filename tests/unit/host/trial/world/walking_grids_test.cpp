@@ -9,11 +9,11 @@
 #include "tests/support/odd_plugins/grown.hpp"
 #include "tests/unit/host/plugins/odd_library.hpp"
 
+namespace walking_grids_test {
+
 using namespace dmrp::host;
 using namespace dmrp::test;
 namespace core = dmrp::core;
-
-namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -42,8 +42,6 @@ bool same(const dmrp_grid& a, const dmrp_grid& b) {
          a.origin.y == b.origin.y && std::memcmp(a.free, b.free, cells) == 0 &&
          std::memcmp(a.edges, b.edges, cells) == 0 && std::memcmp(a.clearance, b.clearance, cells * sizeof(float)) == 0;
 }
-
-}  // namespace
 
 TEST_CASE("equal requests get the same grid, others another one") {
   WalkingGrids grids(std::make_shared<const core::StaticGeometry>(furnished_hall()));
@@ -86,3 +84,5 @@ TEST_CASE("a stored trace's world gives the grid of the trial's") {
       CHECK(same(*then, *now));
     }
 }
+
+}  // namespace walking_grids_test

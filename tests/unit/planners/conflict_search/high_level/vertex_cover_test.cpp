@@ -7,10 +7,10 @@
 #include "tests/unit/planners/mapf/problem_case.hpp"
 #include "tests/unit/planners/random.hpp"
 
+namespace vertex_cover_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
-
-namespace {
 
 // By trying all values up to the greatest weight.
 int least_cover_by_trying(const std::vector<DependentPair>& pairs, int agents, int most) {
@@ -25,8 +25,6 @@ int least_cover_by_trying(const std::vector<DependentPair>& pairs, int agents, i
   }
   return best;
 }
-
-}  // namespace
 
 TEST_CASE("a weighted vertex cover is minimal") {
   for (uint64_t seed = 0; seed < 1500; ++seed) {
@@ -52,3 +50,5 @@ TEST_CASE("where the least weighted vertex cover takes too long, a lower bound r
   CHECK(cover >= 4 * 10);  // of pairs without a common agent
   CHECK(cover <= 40 * 2);  // two for each agent cover all pairs
 }
+
+}  // namespace vertex_cover_test

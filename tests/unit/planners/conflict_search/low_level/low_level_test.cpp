@@ -6,10 +6,10 @@
 #include "planners/conflict_search/low_level/space_time_search.hpp"
 #include "tests/unit/planners/conflict_search/low_level/low_level_case.hpp"
 
+namespace low_level_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
-
-namespace {
 
 template <class Search>
 constexpr Counting counting_of = Counting::by_step;
@@ -79,8 +79,6 @@ int least_weighed(const std::map<int, int>& conflicts_by_cost, int most, int con
     if (cost <= most) best = std::min(best, conflict_steps > 0 ? conflicts * conflict_steps + cost : conflicts);
   return best;
 }
-
-}  // namespace
 
 TEMPLATE_TEST_CASE("a low level finds a path of least cost, and of these one with fewest conflicts", "",
                    SafeIntervalSearch, SpaceTimeSearch) {
@@ -179,3 +177,5 @@ TEST_CASE("over safe intervals a long wait costs nothing to find") {
   CHECK(path.locations[5000] == 2);
   CHECK(search.expanded() < 20);
 }
+
+}  // namespace low_level_test

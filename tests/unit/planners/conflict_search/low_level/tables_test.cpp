@@ -7,10 +7,10 @@
 #include "planners/conflict_search/low_level/mdd.hpp"
 #include "tests/unit/planners/conflict_search/low_level/low_level_case.hpp"
 
+namespace tables_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
-
-namespace {
 
 // A walk on the case's grid. Some are long, so that tables have to grow.
 std::vector<Location> draw_walk(Random& random, const LowLevelCase& c) {
@@ -84,8 +84,6 @@ std::vector<Places> places_by_definition(const LowLevelCase& c, int cost) {
   }
   return levels;
 }
-
-}  // namespace
 
 TEST_CASE("a path satisfies a constraint by its definition") {
   int satisfied = 0;
@@ -267,3 +265,5 @@ TEST_CASE("an MDD holds exactly the places of all paths of least cost") {
   }
   CHECK(with_landmarks > 300);
 }
+
+}  // namespace tables_test

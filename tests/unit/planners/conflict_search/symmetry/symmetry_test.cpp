@@ -7,10 +7,10 @@
 #include "planners/conflict_search/symmetry/rectangle.hpp"
 #include "tests/unit/planners/conflict_search/symmetry/two_agents.hpp"
 
+namespace symmetry_test {
+
 using namespace dmrp::test;
 using namespace dmrp::planners;
-
-namespace {
 
 // The tasks of a pair of robots.
 enum class Traffic {
@@ -218,8 +218,6 @@ CorridorTally draw_corridors(uint64_t seed, int draws, bool constrained, int sla
   return tally;
 }
 
-}  // namespace
-
 TEST_CASE("the exhaustive search over pairs of paths finds a pair that violates both sets") {
   TwoAgents pair(PlanningCase({"...", "..."}).robot({0, 0}, {{2, 0}}).robot({2, 1}, {{0, 1}}));
   CHECK(pair.some_pair_breaks_both({{{avoid_vertex(0, 1, 1)}, {avoid_vertex(1, 4, 1)}}}));
@@ -285,8 +283,6 @@ TEST_CASE("a corridor split loses no pair of paths without conflict and reports 
   }
 }
 
-namespace {
-
 // A corridor of five steps from (1, 1) to (6, 1), which is 5 to 10.
 PlanningCase narrow_grid() {
   return PlanningCase({"..####..", "........", "..####.."});
@@ -304,8 +300,6 @@ void check_corridor(const ConflictCase& c, const Constraint& of_a, const Constra
   CHECK(split->constraints[1] == std::vector<Constraint>{of_b});
   CHECK(split->raises_cost == raises_cost);
 }
-
-}  // namespace
 
 TEST_CASE("two agents that meet in a corridor are split by the times at which each can leave it") {
   const TwoAgents::Path east = {4, 5, 6, 7, 8, 9, 10, 11};
@@ -393,3 +387,5 @@ TEST_CASE("the earliest arrival is that of exhaustive search") {
   }
   CHECK(late > 20);
 }
+
+}  // namespace symmetry_test
