@@ -27,6 +27,8 @@
 
 #include "plugin.hpp"
 
+DMRP_ENTRY_DECLARATION;  // of the plugin under test
+
 namespace dmrp {
 namespace testing {
 
