@@ -18,7 +18,7 @@
 #include "host/commands/command.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/guests/nursery.hpp"
+#include "host/guests/fork_server.hpp"
 #include "host/process/box.hpp"
 #include "host/program/commit.hpp"
 #include "host/program/version.hpp"
@@ -33,7 +33,8 @@ using namespace dmrp::host;
 
 // The commands of child processes: internal, and not in the help.
 std::optional<int> run_as_child(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "nursery") == 0) return Nursery::run(std::atoi(argv[2]), &run_case_in_guest);
+  if (argc == 3 && std::strcmp(argv[1], "fork-server") == 0)
+    return ForkServer::run(std::atoi(argv[2]), &run_case_in_guest);
   if (argc == 9 && std::strcmp(argv[1], "worker") == 0)
     return run_worker({argv[2], static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10)),
                        static_cast<unsigned>(std::strtoul(argv[4], nullptr, 10)),

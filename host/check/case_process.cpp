@@ -20,7 +20,7 @@
 #include "host/check/rehearsal/fence.hpp"
 #include "host/errors/escaped_text.hpp"
 #include "host/errors/machine_error.hpp"
-#include "host/guests/nursery.hpp"
+#include "host/guests/fork_server.hpp"
 #include "host/plugins/calls/own_process.hpp"
 #include "host/process/box.hpp"
 #include "host/process/call_note.hpp"
@@ -202,17 +202,17 @@ int run_case_in_guest(const std::vector<std::string>& arguments, const std::vect
 
 CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
                      std::uint64_t seed) {
-  const Nursery& nursery = own_nursery();
+  const ForkServer& fork_server = own_fork_server();
   const MemoryFile answer_file;
   const MemoryFile output;
   Descriptor note_memory = make_call_note();
   const std::int64_t start_ns = monotonic_ns();
   const bool counts_resident = plugin && plugin->has_flag(DMRP_FLAG_RESIDENT_MEMORY);
   const std::string info = plugin ? nlohmann::json(*plugin).dump() : "";
-  const std::unique_ptr<ChildProcess> started = nursery.start(
+  const std::unique_ptr<ChildProcess> started = fork_server.start(
       {GuestOrder::Program::check_case,
        {check_case.name, file.string(), info, std::to_string(seed), std::to_string(counts_resident ? 0 : memory_mb)},
-       what_shows({"", file, {}}),
+       visible_paths_of({"", file, {}}),
        {answer_file.descriptor(), output.descriptor(), note_memory.number()}});
   ChildProcess& child = *started;
   const SharedCallNote note(std::move(note_memory));
@@ -225,7 +225,7 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   });
   child.kill();
   const ProcessEnding& ending = child.wait();
-  kill_orphans({nursery.number()});
+  kill_orphans({fork_server.number()});
 
   CaseOutcome outcome;
   outcome.hung = !ended && !too_large;

@@ -18,16 +18,16 @@ GuestLimits limits_of(const RunLimits& limits, std::int32_t log_level) {
 }  // namespace
 
 CommandGuests::CommandGuests(const std::vector<LibraryUse>& libraries, const RunLimits& limits, std::int32_t log_level)
-    : nursery_(own_nursery()),
+    : fork_server_(own_fork_server()),
       limits_(limits_of(limits, log_level)),
       guests_(libraries, [this](const LibraryUse& library, std::uint32_t) {
         return std::make_unique<GuestProcess>(
-            nursery_, library, limits_, GuestTask::load, spool_, [](pid_t) {}, [this] { return looked_(); });
+            fork_server_, library, limits_, GuestTask::load, spool_, [](pid_t) {}, [this] { return check_limits_(); });
       }) {}
 
 CommandGuests::~CommandGuests() {
   guests_.end_all();
-  kill_orphans({nursery_.number()});
+  kill_orphans({fork_server_.number()});
 }
 
 void CommandGuests::begin_trial(std::uint64_t number, int spool) {

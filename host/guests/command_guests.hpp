@@ -25,7 +25,7 @@ class CommandGuests {
   void begin_trial(std::uint64_t number, int spool);
 
   // Why a guest is ended now; "": it is not. Asked ten times a second, while a guest is.
-  void watch(GuestProcess::Looked looked) { looked_ = std::move(looked); }
+  void watch(GuestProcess::CheckLimits check_limits) { check_limits_ = std::move(check_limits); }
 
   Guests& all() { return guests_; }
 
@@ -33,10 +33,10 @@ class CommandGuests {
   double end(std::uint32_t library);
 
  private:
-  const Nursery& nursery_;
+  const ForkServer& fork_server_;
   GuestLimits limits_;
   int spool_ = -1;
-  GuestProcess::Looked looked_ = [] { return ""; };
+  GuestProcess::CheckLimits check_limits_ = [] { return ""; };
   Guests guests_;
 };
 

@@ -22,13 +22,13 @@ namespace dmrp::host {
 
 namespace {
 
-constexpr std::int64_t look_interval_ns = 100'000'000;
+constexpr std::int64_t check_interval_ns = 100'000'000;
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr std::int64_t load_budget_ns = 20 * second_ns;
 constexpr int address_attempts = 8;  // with other addresses
 
 // The death of a guest interrupts the wait for its answer.
-void be_told_of_deaths() {
+void interrupt_on_child_exit() {
   struct sigaction action {};
   action.sa_handler = [](int) {};
   action.sa_flags = SA_NOCLDSTOP;
@@ -55,15 +55,15 @@ const char* name_of(GuestTask task) {
 
 }  // namespace
 
-GuestProcess::GuestProcess(const Nursery& nursery, const LibraryUse& library, const GuestLimits& limits,
-                           GuestTask first, int spool, const Started& started, const Looked& looked)
-    : nursery_(nursery),
+GuestProcess::GuestProcess(const ForkServer& fork_server, const LibraryUse& library, const GuestLimits& limits,
+                           GuestTask first, int spool, const Started& started, const CheckLimits& check_limits)
+    : fork_server_(fork_server),
       limits_(limits),
       counts_resident_(library.has_flag(DMRP_FLAG_RESIDENT_MEMORY | DMRP_FLAG_PROCESSES)),
       started_(started),
-      looked_(looked),
+      check_limits_(check_limits),
       written_(library.written) {
-  be_told_of_deaths();
+  interrupt_on_child_exit();
   std::vector<std::unique_ptr<GuestMemory>> taken;  // it keeps its addresses until others are found
   for (int attempt = 0; attempt < address_attempts; ++attempt) {
     start(library, spool);
@@ -82,10 +82,10 @@ void GuestProcess::start(const LibraryUse& library, int spool) {
   turn_ = 0;
   ended_ = false;
   set_memory(memory_->judge_arena(), memory_->output_arena());
-  process_ = nursery_.start(order_of({library.written, library.file, box::has_view() ? view::scratch : limits_.scratch,
-                                      library.has_flag(DMRP_FLAG_RESIDENT_MEMORY) ? 0 : limits_.memory_mb,
-                                      library.has_flag(DMRP_FLAG_PROCESSES), limits_.plain_log_level,
-                                      what_shows(library), spool, memory_->place()}));
+  process_ = fork_server_.start(order_of(
+      {library.written, library.file, box::has_view() ? view::scratch : limits_.scratch,
+       library.has_flag(DMRP_FLAG_RESIDENT_MEMORY) ? 0 : limits_.memory_mb, library.has_flag(DMRP_FLAG_PROCESSES),
+       limits_.plain_log_level, visible_paths_of(library), spool, memory_->place()}));
   started_(process_->number());
   allow_processor_time();
 }
@@ -119,7 +119,7 @@ std::string_view GuestProcess::send(const GuestRequest& request, const AnswerQue
     if (kind != GuestPage::question) return read_answer(request, kind);
     const GuestQuestion question = memory_->guest().asked;
     page.answer = answered(question, answer);
-    if (is_time_to_look()) look(request);
+    if (is_time_to_check()) check_limits(request);
   }
 }
 
@@ -133,28 +133,28 @@ std::string_view GuestProcess::read_answer(const GuestRequest& request, std::uin
     throw std::runtime_error(written_.empty() ? text : written_ + ": " + text);
   }
   if (request.task == GuestTask::destroy) instances_.clear();
-  if (is_time_to_look()) look(request);
+  if (is_time_to_check()) check_limits(request);
   return answer_;
 }
 
 void GuestProcess::wait(const GuestRequest& request) {
   const std::atomic<std::uint32_t>& turn = memory_->guest().turn;
-  while (!GuestMemory::wait(turn, turn_ - 1, std::chrono::milliseconds(look_interval_ns / 1'000'000))) {
+  while (!GuestMemory::wait(turn, turn_ - 1, std::chrono::milliseconds(check_interval_ns / 1'000'000))) {
     pollfd watched = {process_->ended().number(), POLLIN, 0};
     if (poll(&watched, 1, 0) > 0) has_died(request);
-    look(request);
+    check_limits(request);
   }
   if (turn != turn_) end(request, {fault_kind::abi_breach, wrote_into_shared_memory});
 }
 
-bool GuestProcess::is_time_to_look() const {
-  return monotonic_ns() - looked_ns_ > look_interval_ns;
+bool GuestProcess::is_time_to_check() const {
+  return monotonic_ns() - checked_ns_ > check_interval_ns;
 }
 
-void GuestProcess::look(const GuestRequest& request) {
+void GuestProcess::check_limits(const GuestRequest& request) {
   watchdog_.look();
-  looked_ns_ = monotonic_ns();
-  if (const std::string why = looked_(); !why.empty()) end(request, {fault_kind::hang, why, 0, false, false});
+  checked_ns_ = monotonic_ns();
+  if (const std::string why = check_limits_(); !why.empty()) end(request, {fault_kind::hang, why, 0, false, false});
   check_memory(request);
   check_call(request);
 }
@@ -165,7 +165,7 @@ void GuestProcess::check_call(const GuestRequest& request) {
   const bool runs = number % 2 == 1;
   if (number != call_number_ || !runs) {
     call_number_ = number;
-    call_ = {looked_ns_, process_->waited_for_processor_ns()};
+    call_ = {checked_ns_, process_->waited_for_processor_ns()};
     return;
   }
   const std::int64_t limit_ns = CallGuard::longest_ns(request.budget_ns);

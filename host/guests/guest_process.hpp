@@ -7,9 +7,9 @@
 #include <string>
 
 #include "host/guests/exchange/guest_memory.hpp"
+#include "host/guests/fork_server.hpp"
 #include "host/guests/guest.hpp"
 #include "host/guests/guest_end.hpp"
-#include "host/guests/nursery.hpp"
 #include "host/plugins/plugin_use.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/watchdog.hpp"
@@ -28,14 +28,14 @@ struct GuestLimits {
 
 class GuestProcess : public Guest {
  public:
-  using Started = std::function<void(pid_t)>;   // of a process, before it loads the library
-  using Looked = std::function<std::string()>;  // now and then: why the trial may not go on, "" if it may
+  using Started = std::function<void(pid_t)>;        // of a process, before it loads the library
+  using CheckLimits = std::function<std::string()>;  // now and then: why the trial may not go on, "" if it may
 
-  // Starts the process, and asks it to load the library, or to probe it. `nursery` and `limits` outlive it. `spool`: of a
+  // Starts the process, and asks it to load the library, or to probe it. `fork_server` and `limits` outlive it. `spool`: of a
   // trace that is too large for memory, -1 for none. Throws MachineError; std::runtime_error if the library cannot be loaded;
   // PluginFault, a GuestEnd for a library that ends the process.
-  GuestProcess(const Nursery& nursery, const LibraryUse& library, const GuestLimits& limits, GuestTask first, int spool,
-               const Started& started, const Looked& looked);
+  GuestProcess(const ForkServer& fork_server, const LibraryUse& library, const GuestLimits& limits, GuestTask first,
+               int spool, const Started& started, const CheckLimits& check_limits);
   ~GuestProcess() override;
 
   std::span<const std::uint8_t> annotations() const override;
@@ -55,8 +55,8 @@ class GuestProcess : public Guest {
   void start(const LibraryUse& library, int spool);
   void allow_processor_time();
   void wait(const GuestRequest& request);
-  bool is_time_to_look() const;
-  void look(const GuestRequest& request);
+  bool is_time_to_check() const;
+  void check_limits(const GuestRequest& request);
   void check_call(const GuestRequest& request);
   void check_memory(const GuestRequest& request);
   std::string_view plugin_of(const GuestRequest& request, std::string_view said) const;
@@ -65,11 +65,11 @@ class GuestProcess : public Guest {
   [[noreturn]] void end(const GuestRequest& request, GuestEnd::Ending ending);
   [[noreturn]] void has_died(const GuestRequest& request);
 
-  const Nursery& nursery_;
+  const ForkServer& fork_server_;
   const GuestLimits& limits_;
   const bool counts_resident_;  // against memory_mb: all pages in use, not those alone that no limit on data counts
   const Started started_;
-  const Looked looked_;
+  const CheckLimits check_limits_;
   std::string written_;
   std::map<std::uint32_t, std::string> instances_;  // the ids of their plugins
   std::unique_ptr<GuestMemory> memory_;
@@ -79,14 +79,14 @@ class GuestProcess : public Guest {
   std::string answer_;
   std::string loaded_;
   Watchdog watchdog_;
-  std::int64_t looked_ns_ = 0;
+  std::int64_t checked_ns_ = 0;
 
   // Something that may take so long.
   struct Watch {
     std::int64_t start_ns = 0;
     std::int64_t waited_before_ns = 0;  // by the guest for a processor, before the start
   };
-  Watch call_;                     // that was running when the judge looked last
+  Watch call_;                     // that was running when the judge checked last
   std::uint64_t call_number_ = 0;  // its number; 0: none was
 };
 

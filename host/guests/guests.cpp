@@ -115,7 +115,7 @@ void Guests::visit(std::uint32_t library, const std::function<void(Guest& guest)
   if (const auto guest = guests_.find(library); guest != guests_.end()) visit(*guest->second);
 }
 
-bool Guests::have_a_past() const {
+bool Guests::have_served_trials() const {
   return std::any_of(guests_.begin(), guests_.end(), [](const auto& one) { return one.second->trials_begun() > 1; });
 }
 

@@ -66,7 +66,7 @@ class Guests {
   void visit(std::uint32_t library, const std::function<void(Guest& guest)>& visit) const;
 
   // Whether a guest has begun other trials than this one.
-  bool have_a_past() const;
+  bool have_served_trials() const;
 
  private:
   struct Key {

@@ -37,20 +37,20 @@ Probe probe_library(const std::filesystem::path& file, const VisiblePaths& visib
   limits.trial_wall_time_s = static_cast<double>(limit_s);
   limits.plain_log_level = DMRP_LOG_ERROR + 1;  // none
   const std::int64_t start_ns = monotonic_ns();
-  const auto looked = [&] { return monotonic_ns() - start_ns > limit_s * 1'000'000'000 ? "late" : ""; };
-  const Nursery& nursery = own_nursery();
+  const auto check_limits = [&] { return monotonic_ns() - start_ns > limit_s * 1'000'000'000 ? "late" : ""; };
+  const ForkServer& fork_server = own_fork_server();
   try {
     GuestProcess guest(
-        nursery, {"", file, {}, {}, visible}, limits, GuestTask::probe, -1, [](pid_t) {}, looked);
+        fork_server, {"", file, {}, {}, visible}, limits, GuestTask::probe, -1, [](pid_t) {}, check_limits);
     const nlohmann::json answer = nlohmann::json::parse(guest.loaded());
-    kill_orphans({nursery.number()});
+    kill_orphans({fork_server.number()});
     return {answer.at("plugins").get<std::vector<PluginInfo>>(), answer.at("warnings").get<std::vector<std::string>>(),
             answer.at("objects").get<std::vector<std::string>>(), answer.at("init_error").get<std::string>(),
             answer.at("runtime").get<std::vector<std::string>>()};
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error("gives an answer that cannot be read while it is loaded");
   } catch (const GuestEnd& end) {
-    kill_orphans({nursery.number()});
+    kill_orphans({fork_server.number()});
     throw std::runtime_error(text_of(end));
   }
 }

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host/trial/plans/plan_validator.hpp"
+#include "host/plans/plan_validator.hpp"
 
 namespace dmrp::host {
 

@@ -7,8 +7,8 @@
 #include "core/scene/world_view.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/maps/movingai.hpp"
-#include "host/trial/plans/planning.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/plans/planning.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 

@@ -12,8 +12,8 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/guests/fork_server.hpp"
 #include "host/guests/inside/log_line.hpp"
-#include "host/guests/nursery.hpp"
 #include "host/guests/probe.hpp"
 #include "host/process/box.hpp"
 #include "host/program/exit_status.hpp"
@@ -106,7 +106,7 @@ class DebuggedTrial {
 int debug_trial(const std::filesystem::path& file, std::uint32_t trials, std::uint64_t trial) {
   box::disable();  // another debugger can attach
   const Experiment experiment = load_experiment(file, trials, &load_here, &probe_library);
-  end_own_nursery();  // a child process would count as a plugin's
+  end_own_fork_server();  // a child process would count as a plugin's
   const std::uint64_t count = combinations(experiment).size() * experiment.trials;
   if (trial >= count)
     throw InputError(fmt::format("--debug {}: {} has the trials 0 to {}", trial, file.string(), count - 1));

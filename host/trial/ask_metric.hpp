@@ -8,7 +8,7 @@
 #include "host/experiment/experiment.hpp"
 #include "host/guests/guests.hpp"
 #include "host/results/trial_record.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 

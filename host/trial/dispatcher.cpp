@@ -206,11 +206,11 @@ bool Dispatcher::ends_at_goal(std::uint32_t robot, std::uint32_t waypoint) const
   return waypoint == goal_waypoint(robot) && !(course.is_partial && waypoint + 1 == course.path.size());
 }
 
-HandedPath Dispatcher::take_new_path(std::uint32_t robot) {
+PathUpdate Dispatcher::take_new_path(std::uint32_t robot) {
   Course& course = courses_[robot];
   if (!std::exchange(course.is_new, false)) return {};
   if (by_waypoint()) return {{&course.path[course.target], 1}};
-  HandedPath handed = {{course.path.data(), course.cut + std::size_t{1}}};
+  PathUpdate handed = {{course.path.data(), course.cut + std::size_t{1}}};
   if (!ends_at_goal(robot, course.cut)) handed.flags = DMRP_PATH_PARTIAL;
   if (std::exchange(course.is_begun, true)) handed.update_flags = DMRP_PATH_CONTINUES;
   return handed;

@@ -13,8 +13,8 @@
 #include "core/execution/progress.hpp"
 #include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/plans/planning.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/plans/planning.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 
@@ -26,7 +26,7 @@ struct Guidance {
 };
 
 // A path that a controller is to be handed.
-struct HandedPath {
+struct PathUpdate {
   std::span<const dmrp_waypoint> waypoints;  // empty: it keeps the one that it has
   std::uint32_t flags = 0;                   // DMRP_PATH_PARTIAL
   std::uint32_t update_flags = 0;            // DMRP_PATH_CONTINUES
@@ -59,7 +59,7 @@ class Dispatcher {
   void update_targets();
 
   // The path that the robot's controller gets now. Returned once, valid until the next plan.
-  HandedPath take_new_path(std::uint32_t robot);
+  PathUpdate take_new_path(std::uint32_t robot);
 
   Guidance guidance(std::uint32_t robot) const;
 

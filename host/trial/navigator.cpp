@@ -157,8 +157,8 @@ bool Navigator::decide(Route& route, const Sight& sight, bool base_is_new) const
   return route.kind != Kind::base;
 }
 
-Navigator::Led Navigator::lead(std::uint32_t robot, const Guidance& guidance, const HandedPath& handed,
-                               RobotSensors& sensors) {
+Navigator::Rerouted Navigator::reroute(std::uint32_t robot, const Guidance& guidance, const PathUpdate& handed,
+                                       RobotSensors& sensors) {
   Route& route = routes_[robot];
   const bool base_is_new = !handed.waypoints.empty();
   if (base_is_new) {
@@ -178,8 +178,8 @@ Navigator::Led Navigator::lead(std::uint32_t robot, const Guidance& guidance, co
     return {guidance, {route.base, route.base_flags, 0}, false};
   }
   if (is_made) route.progress.set_path(route.path, position);
-  const Guidance led = {guidance.goal, route.progress.progress_m(), route.progress.waypoint()};
-  return {led, is_made ? HandedPath{route.path, route.flags, 0} : HandedPath{}, is_made};
+  const Guidance along = {guidance.goal, route.progress.progress_m(), route.progress.waypoint()};
+  return {along, is_made ? PathUpdate{route.path, route.flags, 0} : PathUpdate{}, is_made};
 }
 
 }  // namespace dmrp::host

@@ -32,14 +32,14 @@ class Navigator {
   // Both arguments outlive it.
   Navigator(const VariantWorld& variant, const core::World& world);
 
-  struct Led {
+  struct Rerouted {
     Guidance guidance;
-    HandedPath path;       // that the controller gets now; valid until the next call for this robot
+    PathUpdate path;       // that the controller gets now; valid until the next call for this robot
     bool is_anew = false;  // a route was made that is not the dispatcher's path
   };
 
   // What the controller gets in place of what the dispatcher gives; at every control tick of the robot.
-  Led lead(std::uint32_t robot, const Guidance& guidance, const HandedPath& handed, RobotSensors& sensors);
+  Rerouted reroute(std::uint32_t robot, const Guidance& guidance, const PathUpdate& handed, RobotSensors& sensors);
 
  private:
   // What the controller has: the dispatcher's path, a way past something, or a way up to it.

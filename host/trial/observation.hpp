@@ -9,7 +9,7 @@
 #include "core/world/world.hpp"
 #include "host/trial/dispatcher.hpp"
 #include "host/trial/robot_sensors.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 

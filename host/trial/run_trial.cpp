@@ -146,18 +146,18 @@ class Run {
     driven_.clear();
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i)
       if (!recovers(i) && is_active(i))
-        driven_.push_back(led({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)}));
+        driven_.push_back(rerouted({i, dispatcher_.guidance(i), dispatcher_.take_new_path(i)}));
     answers_ = plugins_.control(driven_, step_);
     for (std::size_t i = 0; i < driven_.size(); ++i) drive(driven_[i].robot, answers_[i].command);
   }
 
   // With the local route in place of the dispatcher's path, if robots have one.
-  TrialPlugins::DrivenRobot led(TrialPlugins::DrivenRobot robot) {
+  TrialPlugins::DrivenRobot rerouted(TrialPlugins::DrivenRobot robot) {
     if (!navigator_) return robot;
-    const Navigator::Led led =
-        navigator_->lead(robot.robot, robot.guidance, robot.new_path, plugins_.sensors(robot.robot));
-    if (led.is_anew) note(DMRP_ROBOT_EVENT_ROUTE, robot.robot, 0);
-    return {robot.robot, led.guidance, led.path};
+    const Navigator::Rerouted route =
+        navigator_->reroute(robot.robot, robot.guidance, robot.new_path, plugins_.sensors(robot.robot));
+    if (route.is_anew) note(DMRP_ROBOT_EVENT_ROUTE, robot.robot, 0);
+    return {robot.robot, route.guidance, route.path};
   }
 
   bool is_active(std::uint32_t robot) const { return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE; }
@@ -235,7 +235,7 @@ class Run {
       dmrp_robot_sample& robot = robots_[driven_[i].robot];
       robot.answer = answers_[i].command.value_or(nothing);
       robot.answer_status = answers_[i].status;
-      const HandedPath& path = driven_[i].new_path;
+      const PathUpdate& path = driven_[i].new_path;
       if (!path.waypoints.empty())
         paths_.push_back({sizeof(dmrp_path), static_cast<std::uint32_t>(path.waypoints.size()), sizeof(dmrp_waypoint),
                           path.flags, path.waypoints.data()});

@@ -74,8 +74,8 @@ core::Lidar& TrialPlugins::lidar_of(std::uint32_t robot) {
   return lidars_.try_emplace(type.type, type.lidar, variant_.geometry).first->second;
 }
 
-TrialPlugins::Seat TrialPlugins::start_planner(Guests& guests, const PluginUse& use, const char* purpose,
-                                               std::uint64_t seed) {
+TrialPlugins::InstanceHandle TrialPlugins::start_planner(Guests& guests, const PluginUse& use, const char* purpose,
+                                                         std::uint64_t seed) {
   return start(guests, use, {}, instance_seed(seed, purpose, 0), nanoseconds(experiment_.limits.planner_time_s));
 }
 
@@ -91,75 +91,75 @@ void TrialPlugins::start_controllers(Guests& guests, const PluginUse& use, std::
   for (std::uint32_t i = 0; i < robot_count; ++i)
     controllers_.push_back({{}, std::make_unique<RobotSensors>(world_, i, lidar_of(i), seed)});
   for (std::uint32_t i = 0; i < robot_count; ++i) {
-    Seat& seat = controllers_[i].seat;
+    InstanceHandle& handle = controllers_[i].handle;
     if (central_ && i > 0) {
-      seat = controllers_[0].seat;
+      handle = controllers_[0].handle;
       continue;
     }
-    seat.first_robot = i;
-    seat.robot_count = central_ ? robot_count : 1;
-    seat = start(guests, use, seat, instance_seed(seed, "local_controller", i), step_budget_ns_);
+    handle.first_robot = i;
+    handle.robot_count = central_ ? robot_count : 1;
+    handle = start(guests, use, handle, instance_seed(seed, "local_controller", i), step_budget_ns_);
   }
 }
 
-TrialPlugins::Seat TrialPlugins::start(Guests& guests, const PluginUse& use, Seat seat, std::uint64_t seed,
-                                       std::int64_t budget_ns) {
+TrialPlugins::InstanceHandle TrialPlugins::start(Guests& guests, const PluginUse& use, InstanceHandle handle,
+                                                 std::uint64_t seed, std::int64_t budget_ns) {
   const bool drives_one = use.info.kind == DMRP_KIND_LOCAL_CONTROLLER && !central_;
-  seat.instance = &guests.get(use, drives_one ? static_cast<std::int32_t>(seat.first_robot) : DMRP_NO_ROBOT);
-  seat.kind = use.info.kind;
-  Guest& guest = *seat.instance->guest;
+  handle.instance = &guests.get(use, drives_one ? static_cast<std::int32_t>(handle.first_robot) : DMRP_NO_ROBOT);
+  handle.kind = use.info.kind;
+  Guest& guest = *handle.instance->guest;
   const VariantWorld& shared = variant_.shared();
-  SentWorld& sent_shared = guest.shared_world(shared.view.world(), grids_of(shared, seat.kind));
-  seat.world = &shared == &variant_
-                   ? &sent_shared
-                   : &guest.own_world(variant_.view.world(), sent_shared, grids_of(variant_, seat.kind));
+  SentWorld& sent_shared = guest.shared_world(shared.view.world(), grids_of(shared, handle.kind));
+  handle.world = &shared == &variant_
+                     ? &sent_shared
+                     : &guest.own_world(variant_.view.world(), sent_shared, grids_of(variant_, handle.kind));
   Arena& arena = guest.begin();
   const SentScene scene = guest.scene(sent_shared, shared.walking_grids->known());
   const StartInput* const input =
-      arena.copy(StartInput{&seat.world->world(), scene, seed, seat.first_robot, seat.robot_count});
-  call(seat, {GuestTask::start, 0, 0, budget_ns, input});
-  return seat;
+      arena.copy(StartInput{&handle.world->world(), scene, seed, handle.first_robot, handle.robot_count});
+  call(handle, {GuestTask::start, 0, 0, budget_ns, input});
+  return handle;
 }
 
-std::string_view TrialPlugins::call(const Seat& seat, GuestRequest request) {
-  request.instance = seat.instance->number;
+std::string_view TrialPlugins::call(const InstanceHandle& handle, GuestRequest request) {
+  request.instance = handle.instance->number;
   request.annotated = annotated_trace_ && takes_annotations(*annotated_trace_) ? 1 : 0;
-  Guest& guest = *seat.instance->guest;
+  Guest& guest = *handle.instance->guest;
   std::string_view text;
   try {
-    text =
-        guest.call(request, [&](const GuestQuestion& question, Arena& arena) { return answer(seat, question, arena); });
+    text = guest.call(request,
+                      [&](const GuestQuestion& question, Arena& arena) { return answer(handle, question, arena); });
   } catch (const PluginFault&) {
-    record_annotations(seat);
+    record_annotations(handle);
     throw;
   }
-  record_annotations(seat);
+  record_annotations(handle);
   return text;
 }
 
-void TrialPlugins::record_annotations(const Seat& seat) {
-  const auto bytes = seat.instance->guest->annotations();
+void TrialPlugins::record_annotations(const InstanceHandle& handle) {
+  const auto bytes = handle.instance->guest->annotations();
   if (bytes.empty() || !annotated_trace_) return;
   const auto source = [&](std::uint32_t instance, std::uint32_t robot) -> std::optional<core::AnnotationSource> {
-    if (seat.kind != DMRP_KIND_LOCAL_CONTROLLER) return core::AnnotationSource{seat.kind, 0};
-    if (robot >= controllers_.size() || !controllers_[robot].seat.instance ||
-        controllers_[robot].seat.instance->number != instance)
+    if (handle.kind != DMRP_KIND_LOCAL_CONTROLLER) return core::AnnotationSource{handle.kind, 0};
+    if (robot >= controllers_.size() || !controllers_[robot].handle.instance ||
+        controllers_[robot].handle.instance->number != instance)
       return std::nullopt;
-    return core::AnnotationSource{seat.kind, robot};
+    return core::AnnotationSource{handle.kind, robot};
   };
   host::record_annotations(bytes, source, *annotated_trace_);
 }
 
 // Copies the reading into the arena, where the guest finds it.
-const void* TrialPlugins::answer(const Seat& seat, const GuestQuestion& question, Arena& arena) {
-  if (seat.kind != DMRP_KIND_LOCAL_CONTROLLER) return nullptr;
+const void* TrialPlugins::answer(const InstanceHandle& handle, const GuestQuestion& question, Arena& arena) {
+  if (handle.kind != DMRP_KIND_LOCAL_CONTROLLER) return nullptr;
   if (question.kind == GuestQuestion::subscribe_to_costmap) {
-    for (std::uint32_t i = 0; i < seat.robot_count; ++i)
-      controllers_[seat.first_robot + i].sensors->subscribe_to_costmap();
+    for (std::uint32_t i = 0; i < handle.robot_count; ++i)
+      controllers_[handle.first_robot + i].sensors->subscribe_to_costmap();
     return nullptr;
   }
-  const bool drives = question.robot < controllers_.size() && controllers_[question.robot].seat.instance &&
-                      controllers_[question.robot].seat.instance->number == question.instance;
+  const bool drives = question.robot < controllers_.size() && controllers_[question.robot].handle.instance &&
+                      controllers_[question.robot].handle.instance->number == question.instance;
   if (!drives) return nullptr;
   return reading(*controllers_[question.robot].sensors, question.kind, arena);
 }
@@ -210,7 +210,8 @@ Plan TrialPlugins::make(const PlanSource& source, const PluginInfo& info, const 
   return plan;
 }
 
-PlannerAnswer TrialPlugins::ask_planner(const Seat& planner, const dmrp_planning_problem& problem, std::int64_t step) {
+PlannerAnswer TrialPlugins::ask_planner(const InstanceHandle& planner, const dmrp_planning_problem& problem,
+                                        std::int64_t step) {
   Guest& guest = *planner.instance->guest;
   Arena& arena = guest.begin();
   const PlanInput* const input = arena.copy(plan_input(arena, guest.output(), *planner.world, problem));
@@ -235,7 +236,7 @@ std::span<const TrialPlugins::Answer> TrialPlugins::control(std::span<const Driv
 }
 
 const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena& arena) {
-  const HandedPath& handed = robot.new_path;
+  const PathUpdate& handed = robot.new_path;
   if (handed.waypoints.empty()) return nullptr;
   const auto count = static_cast<std::uint32_t>(handed.waypoints.size());
   const dmrp_path* const path = arena.copy(dmrp_path{sizeof(dmrp_path), count, sizeof(dmrp_waypoint), handed.flags,
@@ -245,7 +246,7 @@ const dmrp_path_update* TrialPlugins::update_of(const DrivenRobot& robot, Arena&
 }
 
 void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t step) {
-  const Seat& first = controllers_[robots[0].robot].seat;
+  const InstanceHandle& first = controllers_[robots[0].robot].handle;
   Guest& guest = *first.instance->guest;
   Arena& arena = guest.begin();
   auto* const items = arena.make<ControlItem>(robots.size());
@@ -254,8 +255,8 @@ void TrialPlugins::control_all(std::span<const DrivenRobot> robots, std::int64_t
     const DrivenRobot& robot = robots[i];
     const Controller& controller = controllers_[robot.robot];
     const dmrp_observation seen = observation_of(robot.robot, robot.guidance, variant_, world_, *controller.sensors);
-    observations[i] = controller.seat.world->copy(arena, seen);
-    items[i] = {controller.seat.instance->number, update_of(robot, arena), readings_of(controller, arena)};
+    observations[i] = controller.handle.world->copy(arena, seen);
+    items[i] = {controller.handle.instance->number, update_of(robot, arena), readings_of(controller, arena)};
   }
   auto* const answers = guest.output().make<ControlAnswer>(robots.size());
   auto* const of_all = guest.output().make<CallAnswer>();
@@ -279,7 +280,7 @@ void TrialPlugins::take_command(const DrivenRobot& robot, const ControlAnswer& a
     return;
   }
   const auto fail = [&](const char* kind, const std::string& text) {
-    CallSite site = controllers_[robot.robot].seat.instance->site(central_ ? "step_all" : "step", step);
+    CallSite site = controllers_[robot.robot].handle.instance->site(central_ ? "step_all" : "step", step);
     site.robot = static_cast<std::int32_t>(robot.robot);
     throw PluginFault(kind, site, text);
   };
@@ -321,15 +322,15 @@ const std::vector<dmrp_vec2>& TrialPlugins::people_velocities(std::int64_t step)
 }
 
 void TrialPlugins::end_trial(const dmrp_trial_end& end, std::int64_t step) {
-  const auto end_of = [&](const Seat& seat) {
-    if (!seat.instance) return;
-    const dmrp_trial_end* const input = sent(seat.instance->guest->begin(), end);
-    call(seat, {GuestTask::end_trial, 0, step, step_budget_ns_, input});
+  const auto end_of = [&](const InstanceHandle& handle) {
+    if (!handle.instance) return;
+    const dmrp_trial_end* const input = sent(handle.instance->guest->begin(), end);
+    call(handle, {GuestTask::end_trial, 0, step, step_budget_ns_, input});
   };
   end_of(planner_);
   end_of(fallback_);
   for (const Controller& controller : controllers_) {
-    end_of(controller.seat);
+    end_of(controller.handle);
     if (central_) break;
   }
   end_of(people_);

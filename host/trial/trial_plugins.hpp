@@ -20,10 +20,10 @@
 #include "core/world/world.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/guests/guests.hpp"
+#include "host/plans/planning.hpp"
 #include "host/trial/dispatcher.hpp"
-#include "host/trial/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 
@@ -60,7 +60,7 @@ class TrialPlugins {
   struct DrivenRobot {
     std::uint32_t robot;
     Guidance guidance;
-    HandedPath new_path;
+    PathUpdate new_path;
   };
 
   // What a controller answered: nothing if it found no command. The host then brakes.
@@ -90,7 +90,7 @@ class TrialPlugins {
 
  private:
   // An instance in this trial.
-  struct Seat {
+  struct InstanceHandle {
     GuestInstance* instance = nullptr;
     const SentWorld* world = nullptr;
     std::uint32_t kind = 0;
@@ -98,24 +98,25 @@ class TrialPlugins {
     std::uint32_t robot_count = 0;
   };
   struct Controller {
-    Seat seat;
+    InstanceHandle handle;
     std::unique_ptr<RobotSensors> sensors;
     std::uint64_t revision = 0;  // of its path
     std::uint32_t read = 0;      // the sensors that it read in its last call: bits 1u << GuestQuestion::Kind
   };
 
-  Seat start_planner(Guests& guests, const PluginUse& use, const char* purpose, std::uint64_t seed);
+  InstanceHandle start_planner(Guests& guests, const PluginUse& use, const char* purpose, std::uint64_t seed);
   void start_fallback(Guests& guests, std::uint64_t seed);
   Plan make(const PlanSource& source, const PluginInfo& info, const InForce* in_force, std::int64_t step);
   void start_controllers(Guests& guests, const PluginUse& use, std::uint64_t seed);
-  Seat start(Guests& guests, const PluginUse& use, Seat seat, std::uint64_t seed, std::int64_t budget_ns);
-  std::string_view call(const Seat& seat, GuestRequest request);
-  void record_annotations(const Seat& seat);
-  const void* answer(const Seat& seat, const GuestQuestion& question, Arena& arena);
+  InstanceHandle start(Guests& guests, const PluginUse& use, InstanceHandle handle, std::uint64_t seed,
+                       std::int64_t budget_ns);
+  std::string_view call(const InstanceHandle& handle, GuestRequest request);
+  void record_annotations(const InstanceHandle& handle);
+  const void* answer(const InstanceHandle& handle, const GuestQuestion& question, Arena& arena);
   static const void* reading(RobotSensors& sensors, std::uint32_t kind, Arena& arena);
   static SentReadings readings_of(const Controller& controller, Arena& arena);
 
-  PlannerAnswer ask_planner(const Seat& planner, const dmrp_planning_problem& problem, std::int64_t step);
+  PlannerAnswer ask_planner(const InstanceHandle& planner, const dmrp_planning_problem& problem, std::int64_t step);
   void control_all(std::span<const DrivenRobot> robots, std::int64_t step);
   const dmrp_path_update* update_of(const DrivenRobot& robot, Arena& arena);
   void take_command(const DrivenRobot& robot, const ControlAnswer& answer, std::int64_t step);
@@ -129,10 +130,10 @@ class TrialPlugins {
   FirstPlan first_plan_;
   const std::int64_t step_budget_ns_;
   const PluginUse* planner_use_ = nullptr;   // nullptr without robots
-  Seat planner_;                             // no instance where it is not asked
+  InstanceHandle planner_;                   // no instance where it is not asked
   const PluginUse* fallback_use_ = nullptr;  // nullptr without one
-  Seat fallback_;
-  Seat people_;                                // no instance: they stand
+  InstanceHandle fallback_;
+  InstanceHandle people_;                      // no instance: they stand
   std::map<std::string, core::Lidar> lidars_;  // by type of robot
   core::TraceEncoder* scanned_trace_;          // nullptr if no scans are recorded
   core::TraceEncoder* annotated_trace_;        // nullptr if no annotations are recorded

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
+#include "host/plans/planning.hpp"
 #include "host/results/trial_record.hpp"
-#include "host/trial/plans/planning.hpp"
 
 namespace dmrp::host {
 

@@ -101,14 +101,14 @@ FileStamp stamp_of(const std::string& file) {
 
 class Worker {
  public:
-  Worker(const Experiment& experiment, const WorkerTask& task, const Nursery& nursery, LineChannel& channel,
+  Worker(const Experiment& experiment, const WorkerTask& task, const ForkServer& fork_server, LineChannel& channel,
          Sender& sender)
       : experiment_(experiment),
         plans_(run_directory_of(task.scratch)),
         combinations_(combinations(experiment)),
         channel_(channel),
         sender_(sender),
-        nursery_(nursery),
+        fork_server_(fork_server),
         limits_(guest_limits(experiment, task)),
         processor_(task.processor),
         guests_(experiment.libraries,
@@ -152,7 +152,7 @@ class Worker {
     const auto started = [&](pid_t process) {
       if (kind != DMRP_KIND_GLOBAL_PLANNER) processor_.add(process);
     };
-    return std::make_unique<GuestProcess>(nursery_, library, limits_, GuestTask::load, spool_, started,
+    return std::make_unique<GuestProcess>(fork_server_, library, limits_, GuestTask::load, spool_, started,
                                           [this] { return look(); });
   }
 
@@ -229,7 +229,7 @@ class Worker {
   // An earlier trial can have left its mark on the guest, or somebody outside has killed it.
   bool is_run_again(Open& trial, const GuestEnd& end) {
     const bool again =
-        end.killed() ? ++trial.killed < most_kills_of_guests : end.depends_on_past() && guests_.have_a_past();
+        end.killed() ? ++trial.killed < most_kills_of_guests : end.depends_on_past() && guests_.have_served_trials();
     if (!again) return false;
     std::fprintf(stderr, "[info] dmrp-host: trial %llu is run again: %s: %s\n",
                  static_cast<unsigned long long>(trial.job.trial), end.kind(), end.text().c_str());
@@ -244,7 +244,7 @@ class Worker {
 
   // Processes that plugins have left behind.
   void kill_strays() const {
-    std::vector<pid_t> own = {nursery_.number()};
+    std::vector<pid_t> own = {fork_server_.number()};
     guests_.for_each(
         [&](const Guest& guest) { own.push_back(static_cast<const GuestProcess&>(guest).process().number()); });
     kill_orphans(own);
@@ -359,7 +359,7 @@ class Worker {
   std::vector<Combination> combinations_;
   LineChannel& channel_;
   Sender& sender_;
-  const Nursery& nursery_;
+  const ForkServer& fork_server_;
   const GuestLimits limits_;
   int spool_ = -1;                                                   // of the trial that is measured
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // guests keep copies of them
@@ -396,11 +396,11 @@ int run_worker(const WorkerTask& task) {
   Sender sender(channel);
   try {
     adopt_orphans();
-    const Nursery nursery;  // before anything is known
+    const ForkServer fork_server;  // before anything is known
     const auto setup = channel.receive();
     if (!setup) return 1;
     const Experiment experiment = load_experiment(task.experiment, task.trials, source_of(*setup));
-    Worker(experiment, task, nursery, channel, sender).serve();
+    Worker(experiment, task, fork_server, channel, sender).serve();
     return 0;
   } catch (const std::bad_alloc&) {
     return out_of_memory_exit;

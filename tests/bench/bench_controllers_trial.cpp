@@ -14,7 +14,7 @@
 #include "core/execution/progress.hpp"
 #include "core/execution/referee.hpp"
 #include "core/world/world.hpp"
-#include "host/trial/plans/planning.hpp"
+#include "host/plans/planning.hpp"
 #include "host/trial/robot_sensors.hpp"
 #include "tests/bench/bench_controllers_allocations.hpp"
 

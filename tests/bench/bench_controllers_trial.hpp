@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/experiment/experiment.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 #include "tests/bench/bench_controllers_tape.hpp"
 #include "tests/support/instance_pool.hpp"
 

@@ -41,7 +41,7 @@ class ControllerCalls {
     if (active.empty()) return end();
     for (const std::uint32_t robot : active) {
       extensions_.sensors(robot).tick();
-      if (const HandedPath path = dispatcher_.take_new_path(robot); !path.waypoints.empty()) set_path(robot, path);
+      if (const PathUpdate path = dispatcher_.take_new_path(robot); !path.waypoints.empty()) set_path(robot, path);
     }
     central_ ? step_all(active, outputs) : step(outputs);
     const auto& settings = stage_.variant.simulation;
@@ -60,7 +60,7 @@ class ControllerCalls {
     return false;
   }
 
-  void set_path(std::uint32_t robot, const HandedPath& handed) {
+  void set_path(std::uint32_t robot, const PathUpdate& handed) {
     inputs_.clear();
     const auto& waypoints = handed.waypoints;
     const std::uint32_t unknown_flag = stage_.settings.unknown_kinds ? 1u << 31 : 0;

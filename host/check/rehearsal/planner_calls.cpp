@@ -4,7 +4,7 @@
 
 #include "host/check/rehearsal/rehearsal.hpp"
 #include "host/check/rehearsal/stage_extensions.hpp"
-#include "host/trial/plans/planning.hpp"
+#include "host/plans/planning.hpp"
 
 namespace dmrp::host {
 

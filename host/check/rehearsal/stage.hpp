@@ -7,9 +7,9 @@
 
 #include "core/world/world.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/plans/planning.hpp"
 #include "host/plugins/plugin_info.hpp"
-#include "host/trial/plans/planning.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "host/trial/world/walking_grids.hpp"
+#include "host/world/walking_grids.hpp"
 
 namespace dmrp::host {
 

@@ -8,7 +8,7 @@
 #include "host/guests/exchange/arena.hpp"
 #include "host/guests/exchange/guest_request.hpp"
 #include "host/guests/exchange/sent_world.hpp"
-#include "host/trial/plans/planning.hpp"
+#include "host/plans/planning.hpp"
 
 namespace dmrp::host {
 

@@ -139,7 +139,7 @@ void serve(const GuestSetup& setup, const GuestMemory& memory) {
 
 }  // namespace
 
-VisiblePaths what_shows(const LibraryUse& library) {
+VisiblePaths visible_paths_of(const LibraryUse& library) {
   VisiblePaths visible;
   std::set<std::filesystem::path> folders;
   const VisiblePaths files = files_of_library(library.file);

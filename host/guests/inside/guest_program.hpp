@@ -11,7 +11,7 @@
 
 namespace dmrp::host {
 
-// What the nursery is told.
+// What the fork server is told.
 struct GuestOrder {
   enum class Program { library, check_case, python } program;
   std::vector<std::string> arguments;
@@ -37,7 +37,7 @@ struct GuestSetup {
 GuestOrder order_of(const GuestSetup& setup);
 
 // The library, what it needs, and what the experiment shows it.
-VisiblePaths what_shows(const LibraryUse& library);
+VisiblePaths visible_paths_of(const LibraryUse& library);
 
 // The program of a library, which runs until the judge ends it.
 int run_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors);

@@ -7,8 +7,8 @@
 
 #include "host/guests/exchange/plan_message.hpp"
 #include "host/guests/inside/measure.hpp"
+#include "host/plans/planning.hpp"
 #include "host/results/result_json.hpp"
-#include "host/trial/plans/planning.hpp"
 
 namespace dmrp::host {
 
@@ -60,7 +60,7 @@ std::string GuestRuntime::answer(const GuestRequest& request, const std::string&
     case GuestTask::plan:
       return plan(request);
     case GuestTask::end_trial:
-      seat(request.instance)
+      handle(request.instance)
           .instance->end_trial(*static_cast<const dmrp_trial_end*>(request.input), request.step, request.budget_ns);
       guard_.check_no_children();
       return "";
@@ -69,7 +69,7 @@ std::string GuestRuntime::answer(const GuestRequest& request, const std::string&
     case GuestTask::timing:
       return timing();
     case GuestTask::destroy:
-      seats_.clear();
+      handles_.clear();
       return "";
     case GuestTask::unload:
       unload();
@@ -111,7 +111,7 @@ std::string GuestRuntime::probe() {
 }
 
 void GuestRuntime::unload() {
-  seats_.clear();
+  handles_.clear();
   if (!library_host_) return;
   guard_.call(library_host_->c(), {"library", "deinit", 0, -1}, init_budget_ns, Answers::no_other,
               [&] { return library_->deinit(), DMRP_OK; });
@@ -128,22 +128,22 @@ void GuestRuntime::create(std::uint32_t number, const std::string& text) {
   PluginUse use;
   use.info = *info;
   use.parameters = json.at("parameters").get<std::vector<ParameterValue>>();
-  Seat made;
+  InstanceHandle made;
   made.info = &*info;
   made.instance = std::make_unique<Instance>(*library_, use, json.at("robot").get<std::int32_t>(), guard_, log_);
-  Seat& seat = seats_[number] = std::move(made);
-  offer(number, seat);
+  InstanceHandle& handle = handles_[number] = std::move(made);
+  offer(number, handle);
 }
 
-void GuestRuntime::offer(std::uint32_t number, Seat& seat) {
-  seat.annotations = std::make_unique<Annotations>(annotations_, number);
-  if (seat.info->kind == DMRP_KIND_LOCAL_CONTROLLER)
-    seat.sensors = std::make_unique<SensorReadings>(
+void GuestRuntime::offer(std::uint32_t number, InstanceHandle& handle) {
+  handle.annotations = std::make_unique<Annotations>(annotations_, number);
+  if (handle.info->kind == DMRP_KIND_LOCAL_CONTROLLER)
+    handle.sensors = std::make_unique<SensorReadings>(
         [this, number](GuestQuestion::Kind kind, std::uint32_t robot) { return reading(number, kind, robot); });
-  seat.instance->offer([&seat](std::string_view id) -> const void* {
-    if (id == DMRP_EXT_ANNOTATE && seat.info->kind != DMRP_KIND_METRIC) return seat.annotations->extension();
-    if (seat.sensors) return seat.sensors->extension(id);
-    return id == DMRP_EXT_WALKING_GRID && seat.grids ? seat.grids->extension() : nullptr;
+  handle.instance->offer([&handle](std::string_view id) -> const void* {
+    if (id == DMRP_EXT_ANNOTATE && handle.info->kind != DMRP_KIND_METRIC) return handle.annotations->extension();
+    if (handle.sensors) return handle.sensors->extension(id);
+    return id == DMRP_EXT_WALKING_GRID && handle.grids ? handle.grids->extension() : nullptr;
   });
 }
 
@@ -157,12 +157,12 @@ std::shared_ptr<WalkingGrids> GuestRuntime::walking_grids(const SentScene& scene
 
 void GuestRuntime::start(const GuestRequest& request) {
   const auto& input = *static_cast<const StartInput*>(request.input);
-  Seat& seat = this->seat(request.instance);
-  seat.first_robot = input.first_robot;
-  seat.robot_count = input.robot_count;
+  InstanceHandle& handle = this->handle(request.instance);
+  handle.first_robot = input.first_robot;
+  handle.robot_count = input.robot_count;
   shown_.clear();
-  if (seat.info->kind == DMRP_KIND_PEDESTRIAN_MODEL) seat.grids = walking_grids(input.scene);
-  seat.instance->start(*input.world, input.seed, request.budget_ns);
+  if (handle.info->kind == DMRP_KIND_PEDESTRIAN_MODEL) handle.grids = walking_grids(input.scene);
+  handle.instance->start(*input.world, input.seed, request.budget_ns);
 }
 
 GuestRuntime::Shown& GuestRuntime::shown(std::uint32_t robot) {
@@ -171,7 +171,7 @@ GuestRuntime::Shown& GuestRuntime::shown(std::uint32_t robot) {
 }
 
 const void* GuestRuntime::reading(std::uint32_t instance, GuestQuestion::Kind kind, std::uint32_t robot) {
-  const Seat& own = seat(instance);
+  const InstanceHandle& own = handle(instance);
   if (kind == GuestQuestion::subscribe_to_costmap) return ask_({kind, instance, robot});
   if (robot < own.first_robot || robot - own.first_robot >= own.robot_count) return nullptr;
   Shown& shown = this->shown(robot);
@@ -181,16 +181,16 @@ const void* GuestRuntime::reading(std::uint32_t instance, GuestQuestion::Kind ki
   return known;
 }
 
-void GuestRuntime::set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update* update) {
+void GuestRuntime::set_path(InstanceHandle& handle, const GuestRequest& request, const dmrp_path_update* update) {
   if (!update) return;
-  const auto table = seat.instance->table<dmrp_local_controller>();
-  seat.instance->call("set_path", request.step, request.budget_ns, Answers::no_other,
-                      [&] { return table.set_path(seat.instance->self(), update); });
+  const auto table = handle.instance->table<dmrp_local_controller>();
+  handle.instance->call("set_path", request.step, request.budget_ns, Answers::no_other,
+                        [&] { return table.set_path(handle.instance->self(), update); });
 }
 
 void GuestRuntime::control_all(const GuestRequest& request) {
   const auto& input = *static_cast<const ControlInput*>(request.input);
-  if (seat(request.instance).info->has_flag(DMRP_FLAG_CENTRAL))
+  if (handle(request.instance).info->has_flag(DMRP_FLAG_CENTRAL))
     control_fleet(request, input);
   else
     control_each(request, input);
@@ -199,33 +199,33 @@ void GuestRuntime::control_all(const GuestRequest& request) {
 void GuestRuntime::control_each(const GuestRequest& request, const ControlInput& input) {
   for (std::uint32_t i = 0; i < input.count; ++i) {
     const dmrp_observation& observation = input.observations[i];
-    Seat& seat = this->seat(input.items[i].instance);
+    InstanceHandle& handle = this->handle(input.items[i].instance);
     shown_.clear();
     shown(observation.robot).readings = input.items[i].readings;
-    set_path(seat, request, input.items[i].update);
-    const auto table = seat.instance->table<dmrp_local_controller>();
+    set_path(handle, request, input.items[i].update);
+    const auto table = handle.instance->table<dmrp_local_controller>();
     command_.clear();
-    const auto result = seat.instance->call("step", request.step, request.budget_ns, Answers::no_solution, [&] {
-      return table.step(seat.instance->self(), &observation, &command_.value);
+    const auto result = handle.instance->call("step", request.step, request.budget_ns, Answers::no_solution, [&] {
+      return table.step(handle.instance->self(), &observation, &command_.value);
     });
-    command_.check(seat.instance->site("step", request.step), "dmrp_command");
+    command_.check(handle.instance->site("step", request.step), "dmrp_command");
     input.answers[i] = {{result.status, result.duration_ns}, command_.value, shown(observation.robot).read};
   }
 }
 
 void GuestRuntime::control_fleet(const GuestRequest& request, const ControlInput& input) {
-  Seat& seat = this->seat(request.instance);
+  InstanceHandle& handle = this->handle(request.instance);
   shown_.clear();
   for (std::uint32_t i = 0; i < input.count; ++i) shown(input.observations[i].robot).readings = input.items[i].readings;
-  for (std::uint32_t i = 0; i < input.count; ++i) set_path(seat, request, input.items[i].update);
+  for (std::uint32_t i = 0; i < input.count; ++i) set_path(handle, request, input.items[i].update);
   commands_.resize(input.count);
   for (std::uint32_t i = 0; i < input.count; ++i) commands_[i].struct_size = sizeof(dmrp_command);
   const dmrp_fleet fleet = {sizeof(fleet),        input.count,     input.observations, sizeof(dmrp_observation),
                             sizeof(dmrp_command), commands_.data()};
-  const auto table = seat.instance->table<dmrp_local_controller>();
-  const auto result = seat.instance->call("step_all", request.step, request.budget_ns, Answers::no_other,
-                                          [&] { return table.step_all(seat.instance->self(), &fleet); });
-  commands_.check(seat.instance->site("step_all", request.step), "the commands");
+  const auto table = handle.instance->table<dmrp_local_controller>();
+  const auto result = handle.instance->call("step_all", request.step, request.budget_ns, Answers::no_other,
+                                            [&] { return table.step_all(handle.instance->self(), &fleet); });
+  commands_.check(handle.instance->site("step_all", request.step), "the commands");
   for (std::uint32_t i = 0; i < input.count; ++i)
     input.answers[i] = {
         {commands_[i].status, result.duration_ns}, commands_[i], shown(input.observations[i].robot).read};
@@ -234,32 +234,33 @@ void GuestRuntime::control_fleet(const GuestRequest& request, const ControlInput
 
 void GuestRuntime::move_people(const GuestRequest& request) {
   const auto& input = *static_cast<const PeopleInput*>(request.input);
-  Seat& seat = this->seat(request.instance);
+  InstanceHandle& handle = this->handle(request.instance);
   motions_.resize(input.crowd.person_count);
   dmrp_motions motions = {sizeof(motions), input.crowd.person_count, sizeof(dmrp_motion), 0, motions_.data()};
-  const auto table = seat.instance->table<dmrp_pedestrian_model>();
-  const auto result = seat.instance->call("step", request.step, request.budget_ns, Answers::no_other,
-                                          [&] { return table.step(seat.instance->self(), &input.crowd, &motions); });
-  motions_.check(seat.instance->site("step", request.step), "the motions");
+  const auto table = handle.instance->table<dmrp_pedestrian_model>();
+  const auto result = handle.instance->call("step", request.step, request.budget_ns, Answers::no_other, [&] {
+    return table.step(handle.instance->self(), &input.crowd, &motions);
+  });
+  motions_.check(handle.instance->site("step", request.step), "the motions");
   std::copy_n(motions_.data(), input.crowd.person_count, input.motions);
   *static_cast<CallAnswer*>(request.output) = {result.status, result.duration_ns};
 }
 
 std::string GuestRuntime::plan(const GuestRequest& request) {
   const auto& input = *static_cast<const PlanInput*>(request.input);
-  Seat& seat = this->seat(request.instance);
-  const PlannerAnswer answer = call_planner(*seat.instance, *input.problem, request.step);
-  return plan_text(answer, input, seat.instance->site("plan", request.step));
+  InstanceHandle& handle = this->handle(request.instance);
+  const PlannerAnswer answer = call_planner(*handle.instance, *input.problem, request.step);
+  return plan_text(answer, input, handle.instance->site("plan", request.step));
 }
 
 std::string GuestRuntime::measure(const GuestRequest& request) {
   const auto& input = *static_cast<const MeasureInput*>(request.input);
-  Seat& seat = this->seat(request.instance);
+  InstanceHandle& handle = this->handle(request.instance);
   if (!trace_)
     trace_ = std::make_unique<core::TraceReader>(
         input.trace ? core::TraceRecords(std::span(input.trace, input.trace_bytes)) : spool_(),
         core::TraceExtent::samples);
-  const MetricResult result = host::measure(*trace_, walking_grids(input.scene), *seat.instance, *seat.info,
+  const MetricResult result = host::measure(*trace_, walking_grids(input.scene), *handle.instance, *handle.info,
                                             input.index, input.seed, request.budget_ns);
   guard_.check_no_children();
   return nlohmann::json(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

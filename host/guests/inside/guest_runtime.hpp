@@ -17,7 +17,7 @@
 #include "host/guests/inside/sensor_readings.hpp"
 #include "host/plugins/calls/output.hpp"
 #include "host/plugins/instance.hpp"
-#include "host/trial/world/walking_grids.hpp"
+#include "host/world/walking_grids.hpp"
 
 namespace dmrp::host {
 
@@ -46,7 +46,7 @@ class GuestRuntime {
   const std::optional<BeginInput>& trial() const { return trial_; }
 
  private:
-  struct Seat {
+  struct InstanceHandle {
     const PluginInfo* info = nullptr;
     std::unique_ptr<Annotations> annotations;
     std::unique_ptr<SensorReadings> sensors;
@@ -70,7 +70,7 @@ class GuestRuntime {
   void control_all(const GuestRequest& request);
   void control_each(const GuestRequest& request, const ControlInput& input);
   void control_fleet(const GuestRequest& request, const ControlInput& input);
-  void set_path(Seat& seat, const GuestRequest& request, const dmrp_path_update* update);
+  void set_path(InstanceHandle& handle, const GuestRequest& request, const dmrp_path_update* update);
   void move_people(const GuestRequest& request);
   Shown& shown(std::uint32_t robot);
   const void* reading(std::uint32_t instance, GuestQuestion::Kind kind, std::uint32_t robot);
@@ -78,8 +78,8 @@ class GuestRuntime {
   std::string measure(const GuestRequest& request);
   std::string timing() const;
 
-  Seat& seat(std::uint32_t number) { return seats_.at(number); }
-  void offer(std::uint32_t number, Seat& seat);
+  InstanceHandle& handle(std::uint32_t number) { return handles_.at(number); }
+  void offer(std::uint32_t number, InstanceHandle& handle);
   std::shared_ptr<WalkingGrids> walking_grids(const SentScene& scene);
 
   const std::string written_;
@@ -100,7 +100,7 @@ class GuestRuntime {
   Output<dmrp_command> command_;
   OutputArray<dmrp_command> commands_;
   OutputArray<dmrp_motion> motions_;
-  std::map<std::uint32_t, Seat> seats_;
+  std::map<std::uint32_t, InstanceHandle> handles_;
 };
 
 }  // namespace dmrp::host

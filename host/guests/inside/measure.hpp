@@ -12,7 +12,7 @@
 #include "core/trace/trace_reader.hpp"
 #include "host/plugins/instance.hpp"
 #include "host/results/trial_record.hpp"
-#include "host/trial/world/walking_grids.hpp"
+#include "host/world/walking_grids.hpp"
 
 namespace dmrp::host {
 

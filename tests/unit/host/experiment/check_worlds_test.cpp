@@ -7,7 +7,7 @@
 #include "core/tasks/task_difficulty.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
 namespace check_worlds_test {

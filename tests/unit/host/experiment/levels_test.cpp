@@ -5,7 +5,7 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/toml/expression.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
 namespace levels_test {

@@ -4,7 +4,7 @@
 
 #include "core/scene/footprint.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
 namespace robot_types_test {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/plans/planning.hpp"
 #include "host/plugins/calls/call_guard.hpp"
 #include "host/program/monotonic_time.hpp"
-#include "host/trial/plans/planning.hpp"
 
 namespace calls_test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The conflicts of a plan, against a comparison of all pairs of robots in all steps.
-#include "host/trial/plans/plan_conflicts.hpp"
+#include "host/plans/plan_conflicts.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/trial/plans/plan_conflicts.hpp"
+#include "host/plans/plan_conflicts.hpp"
 
 namespace dmrp::host {
 

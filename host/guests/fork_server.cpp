@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/guests/nursery.hpp"
+#include "host/guests/fork_server.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -69,7 +69,7 @@ void send_order(int socket, const GuestOrder& order) {
   header->cmsg_type = SCM_RIGHTS;
   header->cmsg_len = CMSG_LEN(order.descriptors.size() * sizeof(int));
   std::memcpy(CMSG_DATA(header), order.descriptors.data(), order.descriptors.size() * sizeof(int));
-  if (sendmsg(socket, &message, MSG_NOSIGNAL) < 0) throw MachineError("the nursery of guests", errno);
+  if (sendmsg(socket, &message, MSG_NOSIGNAL) < 0) throw MachineError("the fork_server of guests", errno);
 }
 
 std::optional<GuestOrder> receive_order(int socket) {
@@ -102,7 +102,7 @@ void close_others(std::vector<int>& descriptors) {
   close_range(static_cast<unsigned>(next), ~0u, 0);
 }
 
-// What the nursery answers: the number of the guest, or why there is none.
+// What the fork_server answers: the number of the guest, or why there is none.
 struct Started {
   pid_t number = -1;
   std::array<char, 256> error{};
@@ -181,7 +181,7 @@ void start_guest(int socket, const GuestOrder& order, GuestProgram check_case, S
 
 }  // namespace
 
-Nursery::Nursery(bool is_program) {
+ForkServer::ForkServer(bool is_program) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) throw MachineError("socketpair", errno);
   socket_ = Descriptor(ends[0]);
@@ -202,11 +202,11 @@ Nursery::Nursery(bool is_program) {
   if (!is_program) _exit(run(other.number(), nullptr));
   for (const int stop : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(stop, SIG_IGN);  // its parent ends it
   fcntl(other.number(), F_SETFD, 0);
-  execl(program.c_str(), program.c_str(), "nursery", socket.c_str(), nullptr);
+  execl(program.c_str(), program.c_str(), "fork-server", socket.c_str(), nullptr);
   _exit(1);
 }
 
-int Nursery::run(int socket, GuestProgram check_case) {
+int ForkServer::run(int socket, GuestProgram check_case) {
   const auto own = static_cast<unsigned>(socket);
   if (own > STDERR_FILENO + 1) close_range(STDERR_FILENO + 1, own - 1, 0);
   close_range(own + 1, ~0u, 0);
@@ -224,41 +224,41 @@ int Nursery::run(int socket, GuestProgram check_case) {
   return 0;  // keepers end by themselves
 }
 
-static std::unique_ptr<const Nursery>& kept_nursery() {
-  static std::unique_ptr<const Nursery> nursery;
-  return nursery;
+static std::unique_ptr<const ForkServer>& kept_fork_server() {
+  static std::unique_ptr<const ForkServer> fork_server;
+  return fork_server;
 }
 
-void end_own_nursery() {
-  kept_nursery().reset();
+void end_own_fork_server() {
+  kept_fork_server().reset();
   kill_orphans({});  // its keepers
 }
 
-const Nursery& own_nursery() {
+const ForkServer& own_fork_server() {
   adopt_orphans();
-  std::unique_ptr<const Nursery>& nursery = kept_nursery();
+  std::unique_ptr<const ForkServer>& fork_server = kept_fork_server();
   siginfo_t ended{};
   // who kills all orphans kills it, too
-  if (nursery &&
-      (waitid(P_PID, static_cast<id_t>(nursery->pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0))
-    nursery.reset();
-  if (!nursery) nursery.reset(new Nursery(true));
-  return *nursery;
+  if (fork_server && (waitid(P_PID, static_cast<id_t>(fork_server->pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+                      ended.si_pid != 0))
+    fork_server.reset();
+  if (!fork_server) fork_server.reset(new ForkServer(true));
+  return *fork_server;
 }
 
-Nursery::~Nursery() {
+ForkServer::~ForkServer() {
   socket_.close();
   waitpid(pid_, nullptr, 0);
 }
 
-std::unique_ptr<ChildProcess> Nursery::start(const GuestOrder& order) const {
+std::unique_ptr<ChildProcess> ForkServer::start(const GuestOrder& order) const {
   send_order(socket_.number(), order);
   Started started;
   ssize_t count = 0;
   do {
     count = recv(socket_.number(), &started, sizeof(started), 0);
   } while (count < 0 && errno == EINTR);  // another guest has ended
-  if (count != sizeof(started)) throw MachineError("the nursery of guests", count < 0 ? errno : ECHILD);
+  if (count != sizeof(started)) throw MachineError("the fork_server of guests", count < 0 ? errno : ECHILD);
   if (started.number < 0) throw MachineError(std::string("a guest cannot be started: ") + started.error.data());
   return ChildProcess::adopt(started.number);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/plans/plan_validator.hpp"
+#include "host/plans/plan_validator.hpp"
 
 #include <fmt/format.h>
 

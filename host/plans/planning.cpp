@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/plans/planning.hpp"
+#include "host/plans/planning.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Every breach of a planner's contract and every kind of conflict, on a grid of 6 x 4 cells of 1 m.
-#include "host/trial/plans/plan_validator.hpp"
+#include "host/plans/plan_validator.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include "host/trial/plans/planning.hpp"
+#include "host/plans/planning.hpp"
 
 namespace plan_validator_test {
 

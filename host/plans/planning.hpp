@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/world/world.hpp"
+#include "host/plans/plan_validator.hpp"
 #include "host/plugins/instance.hpp"
-#include "host/trial/plans/plan_validator.hpp"
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 namespace dmrp::host {
 

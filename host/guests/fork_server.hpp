@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// nursery.hpp: where guests come from: a process that knows nothing, and copies itself. To start a program anew takes ten
+// fork_server.hpp: where guests come from: a process that knows nothing, and copies itself. To start a program anew takes ten
 // times as long.
 #pragma once
 
@@ -10,34 +10,34 @@
 
 namespace dmrp::host {
 
-class Nursery {
+class ForkServer {
  public:
   // Copies this process, which has one thread, adopts orphans (orphans.hpp) and has opened nothing that a plugin may not
   // see. Throws MachineError.
-  Nursery() : Nursery(false) {}
-  ~Nursery();
-  Nursery(const Nursery&) = delete;
-  Nursery& operator=(const Nursery&) = delete;
+  ForkServer() : ForkServer(false) {}
+  ~ForkServer();
+  ForkServer(const ForkServer&) = delete;
+  ForkServer& operator=(const ForkServer&) = delete;
 
   // Starts a guest, a child of this process. Throws MachineError.
   std::unique_ptr<ChildProcess> start(const GuestOrder& order) const;
 
   pid_t number() const { return pid_; }
 
-  // The program of a process that cannot copy itself, as it knows something (`dmrp-host nursery`). `check_case`: the guest's
+  // The program of a process that cannot copy itself, as it knows something (`dmrp-host fork-server`). `check_case`: the guest's
   // program of that name. Returns the exit status.
   static int run(int socket, GuestProgram check_case);
 
  private:
-  friend const Nursery& own_nursery();
-  explicit Nursery(bool is_program);
+  friend const ForkServer& own_fork_server();
+  explicit ForkServer(bool is_program);
 
   Descriptor socket_;
   pid_t pid_ = -1;
 };
 
 // That of a command, a program of its own: made when it is needed. Orphans are adopted from then on. Throws MachineError.
-const Nursery& own_nursery();
-void end_own_nursery();  // no child of this process is left
+const ForkServer& own_fork_server();
+void end_own_fork_server();  // no child of this process is left
 
 }  // namespace dmrp::host

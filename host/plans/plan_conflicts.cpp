@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/plans/plan_conflicts.hpp"
+#include "host/plans/plan_conflicts.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include "core/scene/static_geometry.hpp"
 #include "core/scene/world_view.hpp"
 #include "host/experiment/experiment.hpp"
-#include "host/trial/world/walking_grids.hpp"
+#include "host/world/walking_grids.hpp"
 
 namespace dmrp::host {
 

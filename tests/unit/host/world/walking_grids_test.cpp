@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/world/walking_grids.hpp"
+#include "host/world/walking_grids.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/trial/world/variant_world.hpp"
+#include "host/world/variant_world.hpp"
 
 #include <fmt/format.h>
 
