@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "host/check/rehearsal/fence.hpp"
+#include "host/check/rehearsal/stage.hpp"
 #include "host/errors/escaped_text.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/guests/fork_server.hpp"
@@ -109,7 +110,7 @@ void examine(const CheckCase& check_case, const std::filesystem::path& file, con
     examination->fail(error.what());
   }
   result = examination->result();
-  send(answer, {{"result", result}, {"text", examination->text()}});
+  send(answer, {{"result", result}, {"text", examination->text()}, {"call_ns", examination->call_ns()}});
 }
 
 int answer_descriptor = -1;  // for the signal handler
@@ -139,6 +140,7 @@ struct Answer {
   std::string breach;  // of a fence
   std::optional<CheckResult> result;
   std::string text;
+  std::int64_t call_ns = 0;
 };
 
 // A plugin can have written to the file: what cannot be read is ignored.
@@ -156,6 +158,7 @@ Answer read_answer(const std::string& text) {
     if (result < 0 || result > static_cast<std::int64_t>(CheckResult::crash)) continue;
     answer.result = static_cast<CheckResult>(result);
     answer.text = line.value("text", "");
+    answer.call_ns = line.value("call_ns", std::int64_t{0});
   }
   return answer;
 }
@@ -188,6 +191,7 @@ int run_case_in_guest(const std::vector<std::string>& arguments, const std::vect
   try {
     adopt_orphans();
     own_process::watch();
+    limit_ticks(static_cast<std::uint32_t>(std::stoul(arguments.at(5))));
     set_resource_limits(std::stoll(arguments.at(4)));
     limit_files(file_mb);
     watch_fences(answer.descriptor());
@@ -201,7 +205,7 @@ int run_case_in_guest(const std::vector<std::string>& arguments, const std::vect
 }
 
 CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
-                     std::uint64_t seed) {
+                     std::uint64_t seed, std::uint32_t ticks) {
   const ForkServer& fork_server = own_fork_server();
   const MemoryFile answer_file;
   const MemoryFile output;
@@ -209,11 +213,12 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   const std::int64_t start_ns = monotonic_ns();
   const bool counts_resident = plugin && plugin->has_flag(DMRP_FLAG_RESIDENT_MEMORY);
   const std::string info = plugin ? nlohmann::json(*plugin).dump() : "";
-  const std::unique_ptr<ChildProcess> started = fork_server.start(
-      {GuestOrder::Program::check_case,
-       {check_case.name, file.string(), info, std::to_string(seed), std::to_string(counts_resident ? 0 : memory_mb)},
-       visible_paths_of({"", file, {}}),
-       {answer_file.descriptor(), output.descriptor(), note_memory.number()}});
+  const std::unique_ptr<ChildProcess> started =
+      fork_server.start({GuestOrder::Program::check_case,
+                         {check_case.name, file.string(), info, std::to_string(seed),
+                          std::to_string(counts_resident ? 0 : memory_mb), std::to_string(ticks)},
+                         visible_paths_of({"", file, {}}),
+                         {answer_file.descriptor(), output.descriptor(), note_memory.number()}});
   ChildProcess& child = *started;
   const SharedCallNote note(std::move(note_memory));
   child.allow_cpu(processor_time_s(case_limit_s()));
@@ -234,6 +239,7 @@ CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& f
   if (ended && ending.succeeded() && answer.result) {
     outcome.result = *answer.result;
     outcome.detail = escaped(answer.text.c_str());
+    outcome.call_ns = answer.call_ns;
   } else {
     outcome.result = CheckResult::crash;
     outcome.detail = escaped(explain(ending, outcome.hung, too_large, note.read(), answer).c_str());

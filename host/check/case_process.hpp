@@ -17,12 +17,13 @@ struct CaseOutcome {
   CheckResult result = CheckResult::pass;
   std::string detail;  // one line; "" if it passed
   bool hung = false;
-  std::string printed;  // the beginning of what the child printed, escaped
+  std::string printed{};     // the beginning of what the child printed, escaped
+  std::int64_t call_ns = 0;  // of the processor; 0: not measured
 };
 
-// `plugin`: nullptr in cases of the library. Throws MachineError.
+// `plugin`: nullptr in cases of the library. `ticks`: calls of a usual trial. Throws MachineError.
 CaseOutcome run_case(const CheckCase& check_case, const std::filesystem::path& file, const PluginInfo* plugin,
-                     std::uint64_t seed);
+                     std::uint64_t seed, std::uint32_t ticks);
 
 // The guest's program (host/guests/inside/guest_program.hpp).
 int run_case_in_guest(const std::vector<std::string>& arguments, const std::vector<int>& descriptors);

@@ -22,9 +22,9 @@ inline constexpr std::uint32_t for_all = for_planners | for_controllers | for_pe
 struct CheckCase {
   const char* name;  // "lifecycle/start_after_start"
   std::uint32_t kinds;
-  void (*run)(Examination&);
-  const char* rule;  // of the contract, with its header
-  const char* mend;  // how a plugin that fails is mended
+  void (*run)(Examination&);  // in a guest; nullptr: the whole trial, which the host runs
+  const char* rule;           // of the contract, with its header
+  const char* mend;           // how a plugin that fails is mended
 };
 
 // All cases, in the order in which they run. docs/plugin_check.md lists them.
@@ -35,6 +35,8 @@ std::span<const CheckCase> load_check_cases();
 std::span<const CheckCase> descriptor_check_cases();
 std::span<const CheckCase> parameter_check_cases();
 std::span<const CheckCase> trial_check_cases();
+std::span<const CheckCase> plan_check_cases();
+std::span<const CheckCase> meaning_check_cases();
 std::span<const CheckCase> step_check_cases();
 std::span<const CheckCase> call_check_cases();
 std::span<const CheckCase> other_check_cases();

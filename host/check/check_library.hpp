@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "host/check/case_process.hpp"
 
@@ -18,14 +19,17 @@ struct CheckChoice {
   std::uint64_t seed = 1;
 };
 
-// The outcome of a case. `plugin`: id; "" in cases of the library.
+// The outcome of a case. `plugin`: nullptr in cases of the library.
 struct CheckedCase {
-  std::string plugin;
+  const PluginInfo* plugin;
   const CheckCase* check_case;
   CaseOutcome outcome;
 };
 
 using CheckCounts = std::array<std::size_t, 5>;  // by CheckResult
+
+// What the cases do not try of such a plugin.
+std::vector<std::string> not_driven(const PluginInfo& plugin);
 
 // "pass", "skip", "warn", "fail", "crash"
 const char* result_name(CheckResult result);

@@ -121,4 +121,9 @@ Outputs alone(Examination& it, std::uint64_t seed) {
   return rehearse(*instance, it.plugin(), {}, seed);
 }
 
+Outputs rehearse_on(Examination& it, const StageSettings& settings) {
+  const auto instance = it.create();
+  return rehearse(*instance, it.plugin(), settings, it.seed());
+}
+
 }  // namespace dmrp::host

@@ -62,6 +62,10 @@ class Examination {
   void warn(const std::string& text) { find(CheckResult::warn, text); }
   void note(const std::string& text) { find(CheckResult::pass, text); }  // what was measured
 
+  // What a call takes of the processor: other cases make fewer, if it is much.
+  void calls_take(std::int64_t ns) { call_ns_ = ns; }
+  std::int64_t call_ns() const { return call_ns_; }
+
   CheckResult result() const { return result_; }
   const std::string& text() const { return text_; }  // of all findings, in one line
 
@@ -82,6 +86,7 @@ class Examination {
   std::string at_;
   CheckResult result_ = CheckResult::pass;
   std::string text_;
+  std::int64_t call_ns_ = 0;
   mutable std::mutex log_mutex_;
   std::vector<std::string> complaints_;
 };
@@ -91,5 +96,6 @@ void expect_same(Examination& it, const Outputs& outputs, const Outputs& expecte
 
 // What a new instance gives in a rehearsal.
 Outputs alone(Examination& it, std::uint64_t seed);
+Outputs rehearse_on(Examination& it, const StageSettings& settings);
 
 }  // namespace dmrp::host

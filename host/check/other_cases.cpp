@@ -17,7 +17,11 @@ namespace memory_cases {
 namespace {
 
 constexpr std::size_t smallest_block = 16;  // that the allocator hands out
-constexpr std::size_t lifecycles = 20;      // in which memory in use is compared
+
+// In which memory in use is compared.
+std::size_t lifecycles() {
+  return most_ticks(20);
+}
 
 std::size_t bytes_in_use() {
   const struct mallinfo2 info = mallinfo2();
@@ -36,8 +40,8 @@ std::size_t growth(Examination& it, const StageSettings& settings, std::size_t c
 }
 
 std::size_t least_growth(Examination& it, const StageSettings& settings) {
-  std::size_t least = growth(it, settings, lifecycles);
-  for (int i = 1; i < 5; ++i) least = std::min(least, growth(it, settings, lifecycles));
+  std::size_t least = growth(it, settings, lifecycles());
+  for (int i = 1; i < 5; ++i) least = std::min(least, growth(it, settings, lifecycles()));
   return least;
 }
 
@@ -49,15 +53,15 @@ void leaks(Examination& it) {
   settings.ticks = 3;
   settings.people = 2;
   settings.robots = 2;
-  growth(it, settings, lifecycles);  // what is kept for good is there after some
+  growth(it, settings, lifecycles());  // what is kept for good is there after some
   // the allocator keeps some freed blocks, but not more and more of them: what seems lost is looked at again, later
   std::size_t least = least_growth(it, settings);
-  if (least >= lifecycles * smallest_block) {
-    growth(it, settings, 20 * lifecycles);
+  if (least >= lifecycles() * smallest_block) {
+    growth(it, settings, 20 * lifecycles());
     least = least_growth(it, settings);
   }
-  if (least >= lifecycles * smallest_block)
-    it.fail(fmt::format("loses about {} bytes in each life of an instance, with a trial of it", least / lifecycles));
+  if (least >= lifecycles() * smallest_block)
+    it.fail(fmt::format("loses about {} bytes in each life of an instance, with a trial of it", least / lifecycles()));
 }
 
 }  // namespace memory_cases

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <ctime>
 #include <dmrp/toolkit/random.hpp>
-#include <optional>
+#include <functional>
+#include <vector>
 
 #include "host/check/check_case.hpp"
 #include "host/check/examination.hpp"
@@ -41,6 +42,8 @@ bool is_excused(const PluginInfo& info, const std::string& key, const PluginFaul
   });
 }
 
+constexpr int few_calls = 3;                          // with one value
+constexpr int more_calls = 20;                        // where a value switches to other code
 constexpr std::int64_t asks_until_stop = 100;         // then should_stop() says stop
 constexpr std::int64_t work_time_ns = 1'000'000'000;  // of the processor; then values are only started
 
@@ -50,23 +53,24 @@ std::int64_t cpu_ns() {
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
 
-// Creates and starts an instance in which one parameter has another value, and lets it work for some calls.
-void try_value(Examination& it, std::size_t index, const ParameterValue& value, bool and_work) {
+// Creates and starts an instance in which one parameter has another value, and lets it work for so many calls.
+void try_value(Examination& it, std::size_t index, const ParameterValue& value, int calls) {
   it.at(fmt::format("{} = {}", value.key, toml_text(value)));
   std::vector<ParameterValue> parameters = it.defaults();
   parameters[index] = value;
   try {
     const auto instance = it.create(parameters);
     Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed());
-    for (int i = 0; and_work && i < 3 && rehearsal.advance(); ++i) {
+    for (int i = 0; i < calls && rehearsal.advance(); ++i) {
     }
   } catch (const PluginFault& fault) {
     if (fault.fatal() || !is_excused(it.plugin(), value.key, fault)) throw;
   }
 }
 
-// Each parameter with the value that `choose` makes of its declaration.
-void try_all(Examination& it, const std::function<std::optional<ParameterValue>(const ParameterSpec&)>& choose) {
+// Each parameter with the values that `choose` makes of its declaration.
+void try_all(Examination& it, int calls,
+             const std::function<std::vector<ParameterValue>(const ParameterSpec&)>& choose) {
   const auto& specs = it.plugin().parameters;
   if (specs.empty()) throw Skipped{"it has no parameters"};
   std::size_t tried = 0;
@@ -74,9 +78,9 @@ void try_all(Examination& it, const std::function<std::optional<ParameterValue>(
   const std::int64_t begin_ns = cpu_ns();
   it.guard().stop_after_asks(asks_until_stop);
   for (std::size_t i = 0; i < specs.size(); ++i)
-    if (const auto value = choose(specs[i])) {
+    for (const ParameterValue& value : choose(specs[i])) {
       const bool and_work = cpu_ns() - begin_ns < work_time_ns;
-      try_value(it, i, *value, and_work);
+      try_value(it, i, value, and_work ? calls : 0);
       ++tried;
       started += !and_work;
     }
@@ -90,40 +94,58 @@ void try_all(Examination& it, const std::function<std::optional<ParameterValue>(
 
 void defaults(Examination& it) {
   const auto instance = it.create();
-  rehearse(*instance, it.plugin(), {}, it.seed());
+  Rehearsal rehearsal(*instance, it.plugin(), {}, it.seed());
+  std::int64_t calls = 1;
+  const std::int64_t begin_ns = cpu_ns();
+  while (rehearsal.advance()) ++calls;
+  it.calls_take((cpu_ns() - begin_ns) / calls);
 }
 
 void minimum(Examination& it) {
-  try_all(it, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
-    if (!has_range(spec) || !std::isfinite(spec.minimum)) return std::nullopt;
-    return with_number(spec.fallback, spec.minimum);
+  try_all(it, few_calls, [](const ParameterSpec& spec) -> std::vector<ParameterValue> {
+    if (!has_range(spec) || !std::isfinite(spec.minimum)) return {};
+    return {with_number(spec.fallback, spec.minimum)};
   });
 }
 
 void maximum(Examination& it) {
-  try_all(it, [](const ParameterSpec& spec) -> std::optional<ParameterValue> {
-    if (!has_range(spec) || !std::isfinite(spec.maximum)) return std::nullopt;
-    return with_number(spec.fallback, spec.maximum);
+  try_all(it, few_calls, [](const ParameterSpec& spec) -> std::vector<ParameterValue> {
+    if (!has_range(spec) || !std::isfinite(spec.maximum)) return {};
+    return {with_number(spec.fallback, spec.maximum)};
   });
 }
 
-// Numbers between half of the default and twice as much, each choice, each truth.
+// Numbers between half of the default and twice as much.
 void drawn(Examination& it) {
   toolkit::Stream random(it.seed(), "check", 0);
-  try_all(it, [&](const ParameterSpec& spec) -> std::optional<ParameterValue> {
-    ParameterValue value = spec.fallback;
-    if (value.type == DMRP_PARAM_BOOL) value.integer = 1 - value.integer;
-    if (value.type == DMRP_PARAM_CHOICE) value.text = spec.choices[random.next_u64() % spec.choices.size()];
-    if (value.type == DMRP_PARAM_STRING || value.type == DMRP_PARAM_PATH || value.type == DMRP_PARAM_STRING_ARRAY)
-      return std::nullopt;
-    if (!has_range(spec)) return value;
+  try_all(it, few_calls, [&](const ParameterSpec& spec) -> std::vector<ParameterValue> {
+    if (!has_range(spec)) return {};
+    const ParameterValue& value = spec.fallback;
     const double number = value.type == DMRP_PARAM_INT      ? static_cast<double>(value.integer)
                           : value.type == DMRP_PARAM_DOUBLE ? value.number
                                                             : value.numbers.front();
     double chosen = std::clamp(number * random.uniform(0.5, 2.0), spec.minimum, spec.maximum);
     if (value.type == DMRP_PARAM_INT)
       chosen = std::clamp(std::round(chosen), std::ceil(spec.minimum), std::floor(spec.maximum));
-    return with_number(spec.fallback, chosen);
+    return {with_number(spec.fallback, chosen)};
+  });
+}
+
+// The other truth, and all other choices.
+void choices(Examination& it) {
+  try_all(it, more_calls, [](const ParameterSpec& spec) {
+    std::vector<ParameterValue> values;
+    ParameterValue value = spec.fallback;
+    if (value.type == DMRP_PARAM_BOOL) {
+      value.integer = 1 - value.integer;
+      values.push_back(value);
+    }
+    for (const std::string& choice : spec.choices)
+      if (value.type == DMRP_PARAM_CHOICE && choice != spec.fallback.text) {
+        value.text = choice;
+        values.push_back(value);
+      }
+    return values;
   });
 }
 
@@ -143,6 +165,8 @@ std::span<const CheckCase> parameter_check_cases() {
        "lower the maximum to what the plugin can take"},
       {"parameters/drawn", for_all, parameter_cases::drawn,
        "parameter.h: the host lets through any value from minimum to maximum", "narrow the range, or take the value"},
+      {"parameters/choices", for_all, parameter_cases::choices,
+       "parameter.h: the host lets through both truths and every choice", "leave out the choice, or take it"},
   };
   return cases;
 }

@@ -16,6 +16,7 @@
 #include <ctime>
 #include <string_view>
 
+#include "host/check/rehearsal/fence.hpp"
 #include "host/plugins/calls/call_guard.hpp"
 
 namespace dmrp::host {
@@ -187,6 +188,29 @@ void* filled_malloc(std::size_t bytes) {
   return block ? std::memset(block, filling, bytes) : block;
 }
 
+const CallGuard* fenced_calls = nullptr;
+
+void* fenced_malloc(std::size_t bytes) {
+  void* const block = fenced_calls->in_call() ? fence::allocate(bytes) : nullptr;
+  return block ? block : std::malloc(bytes);
+}
+void* fenced_calloc(std::size_t count, std::size_t bytes) {
+  // new pages are zero
+  void* const block = fenced_calls->in_call() && bytes < (1u << 30) ? fence::allocate(count * bytes) : nullptr;
+  return block ? block : std::calloc(count, bytes);
+}
+void fenced_free(void* block) {
+  fence::has_allocated(block) ? fence::free(block) : std::free(block);
+}
+void* fenced_realloc(void* block, std::size_t bytes) {
+  if (!fence::has_allocated(block)) return std::realloc(block, bytes);
+  void* const moved = fenced_malloc(bytes);
+  if (!moved) return nullptr;
+  std::memcpy(moved, block, std::min(bytes, fence::bytes_of(block)));
+  fence::free(block);
+  return moved;
+}
+
 }  // namespace
 
 static void hook_clocks() {
@@ -214,6 +238,13 @@ void count_allocations(const CallGuard& guard) {
                             Hook{"aligned_alloc", address(counted_aligned_alloc)},
                             Hook{"posix_memalign", address(counted_posix_memalign)},
                             Hook{"free", address(counted_free)}};
+  hook(hooks);
+}
+
+void fence_allocations(const CallGuard& guard) {
+  fenced_calls = &guard;
+  const std::array hooks = {Hook{"malloc", address(fenced_malloc)}, Hook{"calloc", address(fenced_calloc)},
+                            Hook{"realloc", address(fenced_realloc)}, Hook{"free", address(fenced_free)}};
   hook(hooks);
 }
 

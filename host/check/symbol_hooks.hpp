@@ -32,4 +32,7 @@ struct Allocations {
 void count_allocations(const CallGuard& guard);
 Allocations allocations();
 
+// What calls of this guard allocate from now on lies behind fences (fence.hpp).
+void fence_allocations(const CallGuard& guard);
+
 }  // namespace dmrp::host

@@ -17,15 +17,6 @@
 
 namespace dmrp::host {
 
-namespace {
-
-void rehearse_on(Examination& it, const StageSettings& settings) {
-  const auto instance = it.create();
-  rehearse(*instance, it.plugin(), settings, it.seed());
-}
-
-}  // namespace
-
 namespace lifecycle_cases {
 
 void create_and_destroy(Examination& it) {
@@ -77,10 +68,10 @@ void interleaved(Examination& it) {
 
 // What counts trials, or fills up, shows late.
 void many_trials(Examination& it) {
-  constexpr int trials = 64;
+  const std::uint32_t trials = most_ticks(64);
   const Outputs expected = alone(it, it.seed());
   const auto instance = it.create();
-  for (int i = 0; i < trials; ++i) {
+  for (std::uint32_t i = 0; i < trials; ++i) {
     it.at(fmt::format("trial {}", i + 1));
     rehearse(*instance, it.plugin(), {.ticks = 2}, it.seed() + 1);
   }
@@ -134,12 +125,34 @@ void same_seed(Examination& it) {
   expect_same(it, alone(it, it.seed()), alone(it, it.seed()));
 }
 
+// In the earlier ones robots and people are others, or the same in another hall, or behind a wall, where nobody walks.
 void after_another_trial(Examination& it) {
+  const StageSettings earlier[] = {{.robots = 2, .people = 3},
+                                   {.robots = 5, .people = 12, .is_large = true},
+                                   {.starts_at_goal = true, .walled_off = true}};
   const Outputs expected = alone(it, it.seed());
-  const auto instance = it.create();
-  rehearse(*instance, it.plugin(), {.robots = 2, .people = 3}, it.seed() + 7);
-  it.at("a trial after another");
-  expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
+  for (const StageSettings& settings : earlier) {
+    const auto instance = it.create();
+    rehearse(*instance, it.plugin(), settings, it.seed() + 7);
+    it.at("a trial after another");
+    expect_same(it, rehearse(*instance, it.plugin(), {}, it.seed()), expected);
+  }
+}
+
+// People meet robots at other times: what a model or a metric remembers of somebody shows only then.
+void after_other_meetings(Examination& it) {
+  constexpr std::uint32_t ticks = 400;
+  const bool walks = it.plugin().kind == DMRP_KIND_PEDESTRIAN_MODEL;
+  for (std::uint32_t reaction = walks ? DMRP_REACTION_REGULAR : DMRP_REACTION_THREATENING;
+       reaction <= DMRP_REACTION_THREATENING; ++reaction) {
+    const StageSettings last = {.people = 24, .ticks = ticks, .reaction = reaction};
+    const Outputs expected = rehearse_on(it, last);
+    const auto instance = it.create();
+    rehearse(*instance, it.plugin(),
+             {.robots = 5, .people = 24, .quarter_turns = 2, .ticks = ticks, .reaction = reaction}, it.seed());
+    it.at("a trial after one with other meetings");
+    expect_same(it, rehearse(*instance, it.plugin(), last, it.seed()), expected);
+  }
 }
 
 // Memory that was in use before lies elsewhere, and is not zero.
@@ -165,9 +178,9 @@ void in_another_place(Examination& it) {
 void long_trial(Examination& it) {
   constexpr std::uint32_t ticks = 400;
   const StageSettings settings = {.ticks = ticks};
-  const Outputs expected = rehearse(*it.create(), it.plugin(), settings, it.seed());
+  const Outputs expected = rehearse_on(it, settings);
   it.at(fmt::format("the same trial of {} calls again", ticks));
-  expect_same(it, rehearse(*it.create(), it.plugin(), settings, it.seed()), expected);
+  expect_same(it, rehearse_on(it, settings), expected);
 }
 
 void other_hours(Examination& it) {
@@ -222,6 +235,12 @@ void limits(Examination& it) {
     it.warn(text);
 }
 
+void drives(Examination& it) {
+  for (const std::uint32_t kinematics :
+       {DMRP_KINEMATICS_DIFFERENTIAL, DMRP_KINEMATICS_HOLONOMIC, DMRP_KINEMATICS_ACKERMANN})
+    if ((it.plugin().kinematics & (1u << kinematics)) != 0) rehearse_on(it, {.kinematics = kinematics});
+}
+
 }  // namespace numbers_cases
 
 namespace growth_cases {
@@ -249,9 +268,9 @@ void longer_structs(Examination& it) {
 
 void unknown_constants(Examination& it) {
   skip_if_newer(it);
-  const Outputs expected = alone(it, it.seed());
-  it.at("with kinds and flags that this version does not know");
-  expect_same(it, rehearse(*it.create(), it.plugin(), {.unknown_kinds = true}, it.seed()), expected);
+  const Outputs expected = rehearse_on(it, {.one_fails = true});
+  it.at("with states, kinds and flags that this version does not know");
+  expect_same(it, rehearse_on(it, {.unknown_kinds = true, .one_fails = true}), expected);
 }
 
 void longer_host(Examination& it) {
@@ -305,6 +324,9 @@ std::span<const CheckCase> trial_check_cases() {
       {"determinism/after_another_trial", for_all, determinism_cases::after_another_trial,
        "plugin.h: a trial gives the same results whatever ran before",
        "set every member in start() that a trial changes"},
+      {"determinism/after_other_meetings", for_people | for_metrics, determinism_cases::after_other_meetings,
+       "plugin.h: a trial gives the same results whatever ran before",
+       "forget in start() whom the model or metric has met: ids come again"},
       {"determinism/in_another_place", for_all, determinism_cases::in_another_place,
        "abi.h: results do not depend on addresses", "initialise all memory, and order nothing by address or hash"},
       {"determinism/leaping_clocks", for_all, determinism_cases::leaping_clocks,
@@ -322,7 +344,12 @@ std::span<const CheckCase> trial_check_cases() {
       {"numbers/limits", for_controllers, numbers_cases::limits,
        "local_controller.h: commands are in m/s and rad/s; the host clips them to the robot's limits",
        "compute angles in radians, and clamp the command to observation.limits"},
-      {"numbers/nobody_near", for_all, [](Examination& it) { rehearse_on(it, {.robots = 1, .people = 0}); },
+      {"numbers/nobody_near", for_all,
+       [](Examination& it) {
+         rehearse_on(it, {.robots = 1, .people = 0});
+         it.at("with one agent");
+         rehearse_on(it, {.robots = 1, .people = 1});
+       },
        "observation.h: agents may be none", "divide by no count that may be zero"},
       {"numbers/crowd", for_controllers | for_people | for_metrics,
        [](Examination& it) { rehearse_on(it, {.people = 1000, .is_large = true, .ticks = 2}); },
@@ -339,12 +366,15 @@ std::span<const CheckCase> trial_check_cases() {
       {"numbers/far_away", for_all, [](Examination& it) { rehearse_on(it, {.corner_m = 1e6}); },
        "values.h: coordinates are metres in the world frame, wherever its corner lies",
        "compute with differences of positions, in doubles"},
+      {"numbers/drives", for_controllers, numbers_cases::drives,
+       "descriptor.h: a controller drives robots of every kinematics that it declares",
+       "declare the kinematics that it drives, and no others"},
       {"numbers/headings", for_all, [](Examination& it) { rehearse_on(it, {.goals_have_headings = true}); },
        "path.h, robot.h: theta may be a heading, or NaN for any", "test std::isnan(theta) before it is used"},
       {"growth/longer_structs", for_all, growth_cases::longer_structs,
        "abi.h: structs and array elements may be longer than the plugin knows",
        "access array elements with DMRP_AT, and compare no struct_size with =="},
-      {"growth/unknown_constants", for_controllers | for_metrics, growth_cases::unknown_constants,
+      {"growth/unknown_constants", for_planners | for_controllers | for_metrics, growth_cases::unknown_constants,
        "abi.h: constants are open lists: readers skip what they do not know",
        "test for the kinds and flags that you know, and leave out the others"},
       {"growth/longer_host", for_all, growth_cases::longer_host,

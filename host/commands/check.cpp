@@ -37,8 +37,9 @@ std::string counts_text(const CheckCounts& counts) {
 class TextReport {
  public:
   void add(const CheckedCase& checked) {
-    if (subject_ != checked.plugin) finish_subject();
-    subject_ = checked.plugin;
+    if (plugin_ != checked.plugin) finish_subject();
+    plugin_ = checked.plugin;
+    if (plugin_) info_ = *plugin_;
     const CaseOutcome& outcome = checked.outcome;
     if (outcome.result == CheckResult::pass && outcome.detail.empty()) return;
     if (outcome.result == CheckResult::skip) return skipped_[outcome.detail].push_back(checked.check_case->name);
@@ -54,24 +55,26 @@ class TextReport {
       print_heading();
       fmt::print("  {:<6}{}: {}\n", "skip", fmt::join(names, ", "), reason);
     }
+    if (plugin_) print_heading(), fmt::print("  not driven: {}\n", fmt::join(not_driven(info_), "; "));
     skipped_.clear();
     has_heading_ = false;
   }
 
  private:
   void print_heading() {
-    if (!has_heading_) fmt::print("{}\n", subject_.empty() ? "library" : subject_);
+    if (!has_heading_) fmt::print("{}\n", plugin_ ? info_.id : "library");
     has_heading_ = true;
   }
 
-  std::string subject_;
+  const PluginInfo* plugin_ = nullptr;  // whose cases they are; nullptr: the library's
+  PluginInfo info_;                     // its copy, which is there at the end too
   bool has_heading_ = false;
   std::map<std::string, std::vector<std::string>> skipped_;  // names of cases by reason
 };
 
 nlohmann::ordered_json to_json(const CheckedCase& checked) {
   nlohmann::ordered_json json;
-  json["plugin"] = checked.plugin;
+  json["plugin"] = checked.plugin ? checked.plugin->id : "";
   json["case"] = checked.check_case->name;
   json["result"] = result_name(checked.outcome.result);
   json["detail"] = checked.outcome.detail;

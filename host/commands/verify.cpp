@@ -11,6 +11,7 @@
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/files/temporary_folder.hpp"
 #include "host/guests/probe.hpp"
 #include "host/results/database.hpp"
 #include "host/run/run_description.hpp"
@@ -33,27 +34,6 @@ struct VerifyOptions {
   std::uint64_t seed = 1;   // chooses the trials and their order
   unsigned jobs = default_jobs();
   bool trust = false;  // plugins of a bundle
-};
-
-// A folder for this time, deleted at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "dmrp_verify_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 // What ended by a fault or by a wall-clock limit may end otherwise.
@@ -124,7 +104,7 @@ class Rerun {
   const Experiment& experiment_;
   const StoredPlans before_;
   unsigned jobs_;
-  TemporaryFolder folder_;
+  TemporaryFolder folder_{"dmrp_verify"};
   std::map<std::uint64_t, TrialRecord> trials_;
 };
 

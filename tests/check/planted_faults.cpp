@@ -4,6 +4,7 @@
 #include <fenv.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <ctime>
 #include <dmrp/plugin.hpp>
+#include <map>
 #include <thread>
 
 extern "C" const dmrp_entry dmrp_entry_v1;
@@ -71,6 +73,8 @@ class Planted : public Kind {
   // Its value is in the outputs.
   dmrp::Param<double> level = this->param("level", 1.0).range(0.0, 10.0).doc(has("no doc") ? "" : "how much");
 
+  dmrp::Param<std::string> mode = this->param("mode", "plain").choices({"plain", "odd"}).doc("nothing");
+
   Planted() {
     if (has("is one at a time")) ++instances;
     if (has("leaks")) leaked_ = new char[4096];
@@ -91,6 +95,8 @@ class Planted : public Kind {
     if (has("refuses the minimum") && *level == 0.0) return this->set_error("level is zero"), Status::error;
     if (has("refuses the maximum") && *level == 10.0) return this->set_error("level is ten"), Status::error;
     if (has("refuses the default") && *level == 1.0) return this->set_error("level is one"), Status::error;
+    if (has("refuses a choice") && *mode == "odd") return this->set_error("mode is odd"), Status::error;
+    if (has("wants a shape") && start.world.shapes().size() == 0) return this->set_error("no shape"), Status::error;
     if (has("refuses other values") && *level != 0.0 && *level != 1.0 && *level != 10.0) return Status::error;
     if (has("wants no agent") && start.world.robots().size() == 0) return Status::error;
     if (has("compares struct_size") && start.world->struct_size != sizeof(dmrp_world))
@@ -190,7 +196,7 @@ dmrp::Descriptor descriptor_of(const char* kind) {
 class Planner final : public Planted<dmrp::GlobalPlanner> {
  public:
   static dmrp::Descriptor describe() {
-    return descriptor_of("planner").connectivity(DMRP_CONNECTIVITY_ANY).uncoordinated();
+    return descriptor_of("planner").connectivity(DMRP_CONNECTIVITY_ANY).flags(DMRP_FLAG_WINDOWED).uncoordinated();
   }
 
   Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
@@ -206,32 +212,72 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
       const auto row = static_cast<std::uint32_t>((robot.start.y - grid.origin.y) / grid.resolution_m);
       if (!grid.free[row * grid.width + column]) return has("calls it an error") ? Status::error : Status::no_solution;
       std::vector<dmrp::Waypoint> path = {
-          {robot.start.x, robot.start.y, std::nan(""), problem.effective_from_ns, 0, 0}};
-      const double length_m = std::hypot(goal.x - robot.start.x, goal.y - robot.start.y);
-      if (length_m > 0.0 || has("divides by the length")) {
+          {robot.start.x, robot.start.y, std::nan(""), problem.effective_from_ns, robot.first_goal_index, 0}};
+      for (std::uint32_t g = 0; g < robot.goal_count; ++g) {
+        if (robot.state != DMRP_ROBOT_ACTIVE && !has("moves the dead")) break;
+        const dmrp::Pose at = dmrp::goals(robot)[g].pose;
+        const double length_m = std::hypot(at.x - path.back().x, at.y - path.back().y);
+        if (length_m == 0.0 && !has("divides by the length")) continue;
         const double duration_s = has("divides by the length") ? 20.0 / length_m * length_m : 20.0 + shift;
-        path.push_back(
-            {goal.x, goal.y, std::nan(""),
-             problem.effective_from_ns + static_cast<std::int64_t>(std::isnan(duration_s) ? -1.0 : duration_s * 1e9), 0,
-             0});
+        path.push_back({at.x, at.y, std::nan(""),
+                        path.back().t_ns + static_cast<std::int64_t>(std::isnan(duration_s) ? -1.0 : duration_s * 1e9),
+                        has("counts goals from 0") ? g : robot.first_goal_index + g, 0});
       }
-      sink.path(i, path);
+      const bool is_partial = problem.window_steps > 0 && cut(path, problem);
+      sink.path(i, path, is_partial && !has("calls every path whole"));
     }
     if (has("gives a path twice")) sink.path(0, std::vector<dmrp::Waypoint>());
     if (has("gives a path to nobody")) sink.path(99, std::vector<dmrp::Waypoint>());
     return Status::ok;
   }
+
+ private:
+  // Ends the path where the window ends. False if it ends before.
+  static bool cut(std::vector<dmrp::Waypoint>& path, const dmrp::PlanningProblem& problem) {
+    const std::int64_t end_ns = problem.effective_from_ns + problem.window_steps * problem.step_duration_ns;
+    bool is_cut = false;
+    while (path.size() > 1 && path.back().t_ns > end_ns) {
+      dmrp::Waypoint last = path.back();
+      path.pop_back();
+      const dmrp::Waypoint& from = path.back();
+      if (from.t_ns < end_ns) {
+        const double part = static_cast<double>(end_ns - from.t_ns) / static_cast<double>(last.t_ns - from.t_ns);
+        last.x = from.x + part * (last.x - from.x);
+        last.y = from.y + part * (last.y - from.y);
+        last.t_ns = end_ns;
+        path.push_back(last);
+      }
+      is_cut = true;
+    }
+    return is_cut;
+  }
 };
 
 class Controller final : public Planted<dmrp::LocalController> {
  public:
-  static dmrp::Descriptor describe() { return descriptor_of("controller"); }
+  static dmrp::Descriptor describe() {
+    return descriptor_of("controller").kinematics(1u << DMRP_KINEMATICS_DIFFERENTIAL | 1u << DMRP_KINEMATICS_HOLONOMIC);
+  }
+
+  Status start(const dmrp::Start& start) override {
+    length_m_ = 0.0;
+    const auto drive = start.world.robots().size() > 0 ? start.world.robots()[0].kinematics : 0;
+    if (has("cannot drive sideways") && drive == DMRP_KINEMATICS_HOLONOMIC) return Status::error;
+    return Planted::start(start);
+  }
 
   void set_path(dmrp::Path path, std::uint64_t) override {
     if (has("wants two waypoints") && path.size() < 2) throw std::runtime_error("a path has two waypoints");
+    if (has("keeps its first path") && length_m_ > 0.0) return;
+    length_m_ = std::hypot(path.back().x - path[0].x, path.back().y - path[0].y);
   }
   Status step(const dmrp::Observation& now, dmrp::Command& command) override {
-    command.v_x = 0.1 * *level + number();
+    command.v_x = 0.4 * *level * std::clamp(length_m_ - now.progress_m, 0.0, 1.0) + number();
+    if (has("drives to the east") && std::abs(now.pose.theta) > 1.0) command.v_x = 0.0;
+    if (has("takes a root of speeds")) command.omega = 0.0 * std::sqrt(now.limits.v_max + 0.1 - now.velocity.v_x);
+    if (has("divides by the distance of two") && now.agents.size() > 1)
+      command.omega = 1e-9 / (now.agents[1].pose.x - now.agents[0].pose.x) * 0.0;
+    if (has("looks its goal up")) command.omega = 0.0 * start_goals(now)[now.goal_index].tolerance_m;
     if (has("divides by the agents") && now.agents.size() == 0) command.v_x = std::nan("");
     if (has("has room for 100") && now.agents.size() > 100) crash();
     for (int i = 0; i < 10; ++i)
@@ -249,7 +295,10 @@ class Controller final : public Planted<dmrp::LocalController> {
   }
 
  private:
+  const dmrp_goal* start_goals(const dmrp::Observation& now) const { return world().robots()[now.robot].goals; }
+
   const dmrp_agent* kept_ = nullptr;
+  double length_m_ = 0.0;
 };
 
 class People final : public Planted<dmrp::PedestrianModel> {
@@ -260,9 +309,30 @@ class People final : public Planted<dmrp::PedestrianModel> {
     if (has("has room for 100") && crowd.people.size() > 100) crash();
     if (has("writes too far")) motions[crowd.people.size()].velocity = {1.0, 0.0};
     const double speed = std::min(0.1 * *level, 1.0) + number();
-    for (std::size_t i = 0; i < crowd.people.size(); ++i) motions[i].velocity = {speed, 0.0};
+    for (std::size_t i = 0; i < crowd.people.size(); ++i)
+      motions[i].velocity = {speed + of(crowd, crowd.people[i]), 0.0};
     return Status::ok;
   }
+
+ private:
+  // What a fault adds to a person's speed.
+  double of(const dmrp::Crowd& crowd, const dmrp::Person& person) {
+    std::size_t mates = 0, near = 0;
+    for (const dmrp::Person& other : crowd.people) {
+      mates += other.group == person.group;
+      near += std::hypot(other.position.x - person.position.x, other.position.y - person.position.y) < 0.6;
+    }
+    if (has("takes group 0 for a group")) return 1e-3 * static_cast<double>(mates);
+    if (has("counts reactions")) return person.reaction > DMRP_REACTION_THREATENING ? 1e-3 : 0.0;
+    if (has("flees from a crowd")) return near > 10 ? 9.0 : 0.0;
+    if (has("remembers whom it met"))
+      for (const dmrp::Agent& robot : crowd.robots)
+        if (std::hypot(robot.pose.x - person.position.x, robot.pose.y - person.position.y) < 2.0)
+          return 1e-12 * static_cast<double>(crowd.t_ns - met_.try_emplace(person.id, crowd.t_ns).first->second);
+    return 0.0;
+  }
+
+  std::map<std::uint64_t, std::int64_t> met_;
 };
 
 class Metric final : public Planted<dmrp::Metric> {
@@ -272,9 +342,17 @@ class Metric final : public Planted<dmrp::Metric> {
                                          dmrp::Subjects::system, "a number");
   }
 
-  void begin(const dmrp::MetricTrial& trial) override { has_plan_ = trial.plan != nullptr; }
+  void begin(const dmrp::MetricTrial& trial) override {
+    calls_ = 0;
+    classes_.assign(DMRP_CLASS_STUCK + 1, 0);
+    has_plan_ = trial.plan != nullptr;
+  }
   void observe(const dmrp::Sample& sample) override {
     if (has("has room for 100") && sample.people.size() > 100) crash();
+    if (has("reads calls")) calls_ += sample.calls.size();
+    if (has("counts by class"))
+      for (const dmrp::RobotEvent& event : sample.events)
+        if (event.kind == DMRP_ROBOT_EVENT_CLASS) ++classes_[event.detail];
     if (has("takes every contact"))
       for (const dmrp::Contact& contact : sample.contacts) deepest_m_ = std::max(deepest_m_, contact.depth_m);
   }
@@ -282,10 +360,12 @@ class Metric final : public Planted<dmrp::Metric> {
     if (has("wants a plan") && !has_plan_) return;
     if (has("gives the undeclared")) sink.system("test_other", 0.0);
     if (has("gives infinity")) sink.system("test_check", 1.0 / number());
-    sink.system("test_check", *level + deepest_m_ + number());
+    sink.system("test_check", *level + deepest_m_ + static_cast<double>(calls_) + number());
   }
 
  private:
+  std::size_t calls_ = 0;
+  std::vector<int> classes_;
   bool has_plan_ = false;
   double deepest_m_ = 0.0;
 };

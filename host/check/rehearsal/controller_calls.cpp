@@ -2,6 +2,8 @@
 // A controller drives a robot along a straight plan among people, or all robots if it is central.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "host/check/rehearsal/rehearsal.hpp"
@@ -25,11 +27,11 @@ class ControllerCalls {
         end_(central_ ? static_cast<std::uint32_t>(stage.world.robots().size()) : first_ + 1),
         table_(instance.table<dmrp_local_controller>()),
         extensions_(instance, info, stage, end_),
+        plan_(stage.straight_plan()),
         dispatcher_(stage.variant, stage.world),
         inputs_(stage.settings.grown_bytes),
         revisions_(end_) {
-    Plan plan = stage.straight_plan();
-    dispatcher_.set_plan(plan);
+    dispatcher_.set_plan(plan_);
   }
 
   bool next(Outputs& outputs) {
@@ -41,8 +43,13 @@ class ControllerCalls {
     if (active.empty()) return end();
     for (const std::uint32_t robot : active) {
       extensions_.sensors(robot).tick();
-      if (const PathUpdate path = dispatcher_.take_new_path(robot); !path.waypoints.empty()) set_path(robot, path);
+      const PathUpdate whole = dispatcher_.take_new_path(robot);
+      if (stage_.path_end != handed_end_)
+        set_path(robot, cut_path(robot));
+      else if (!whole.waypoints.empty())
+        set_path(robot, whole);
     }
+    handed_end_ = stage_.path_end;
     central_ ? step_all(active, outputs) : step(outputs);
     const auto& settings = stage_.variant.simulation;
     for (std::int64_t t_ns = 0; t_ns < settings.control_period_ns; t_ns += settings.step_ns) {
@@ -60,9 +67,29 @@ class ControllerCalls {
     return false;
   }
 
+  // What a host hands over whose order, or window, ends the path there.
+  PathUpdate cut_path(std::uint32_t robot) const {
+    const std::span<const dmrp_waypoint> whole = plan_.paths[robot];
+    const std::size_t count = std::min<std::size_t>(whole.size(), std::size_t{stage_.path_end} + 1);
+    return {whole.first(count), count < whole.size() ? DMRP_PATH_PARTIAL : 0u, tick_ > 1 ? DMRP_PATH_CONTINUES : 0u};
+  }
+
+  // Where the robot is on the path that its controller has.
+  Guidance guidance(std::uint32_t robot) const {
+    Guidance guidance = dispatcher_.guidance(robot);
+    if (const std::size_t end = stage_.path_end; end + 1 < plan_.paths[robot].size()) {
+      const dmrp_waypoint& from = plan_.paths[robot].front();
+      const dmrp_waypoint& to = plan_.paths[robot][end];
+      guidance.progress_m = std::min(guidance.progress_m, std::hypot(to.x - from.x, to.y - from.y));
+      guidance.progress_waypoint = std::min(guidance.progress_waypoint, static_cast<std::uint32_t>(end));
+    }
+    return guidance;
+  }
+
   void set_path(std::uint32_t robot, const PathUpdate& handed) {
     inputs_.clear();
-    const auto& waypoints = handed.waypoints;
+    std::vector<dmrp_waypoint> waypoints(handed.waypoints.begin(), handed.waypoints.end());
+    for (dmrp_waypoint& waypoint : waypoints) waypoint.goal_index += stage_.settings.first_goal;
     const std::uint32_t unknown_flag = stage_.settings.unknown_kinds ? 1u << 31 : 0;
     const dmrp_path path = {0, static_cast<std::uint32_t>(waypoints.size()), inputs_.stride<dmrp_waypoint>(),
                             handed.flags | unknown_flag, inputs_.array(waypoints.data(), waypoints.size())};
@@ -75,19 +102,23 @@ class ControllerCalls {
 
   dmrp_observation grown_observation(std::uint32_t robot, const Guidance& guidance) {
     dmrp_observation seen = observation_of(robot, guidance, stage_.variant, stage_.world, extensions_.sensors(robot));
+    const std::vector<dmrp_agent> agents = stage_.agents({seen.agents, seen.agent_count});
     seen.struct_size = inputs_.stride<dmrp_observation>();
+    seen.goal_index += stage_.settings.first_goal;
+    seen.goal_count += stage_.settings.first_goal;
+    if (stage_.settings.is_fast) seen.velocity = {3.0 * seen.limits->v_max, 0.0, -3.0 * seen.limits->omega_max};
     seen.goal = inputs_.array(seen.goal, 1);
     seen.limits = inputs_.one(*seen.limits);
     seen.footprint = inputs_.one(*seen.footprint);
-    seen.agents = inputs_.array(seen.agents, seen.agent_count);
+    seen.agents = agents.empty() ? nullptr : inputs_.array(agents.data(), agents.size());
     seen.agent_stride = inputs_.stride<dmrp_agent>();
     return seen;
   }
 
   void step(Outputs& outputs) {
     inputs_.clear();
-    const Guidance guidance = dispatcher_.guidance(first_);
-    const dmrp_observation* const seen = inputs_.one(grown_observation(first_, guidance));
+    const Guidance guided = guidance(first_);
+    const dmrp_observation* const seen = inputs_.one(grown_observation(first_, guided));
     inputs_.seal();
     Output<dmrp_command> command;
     const auto result = instance_.call("step", tick_, stage_budget_ns, Answers::no_solution,
@@ -98,10 +129,10 @@ class ControllerCalls {
 
   void step_all(const std::vector<std::uint32_t>& active, Outputs& outputs) {
     inputs_.clear();
-    std::vector<Guidance> guidance;
-    for (const std::uint32_t robot : active) guidance.push_back(dispatcher_.guidance(robot));
+    std::vector<Guidance> guided;
+    for (const std::uint32_t robot : active) guided.push_back(guidance(robot));
     std::vector<dmrp_observation> seen;
-    for (std::size_t i = 0; i < active.size(); ++i) seen.push_back(grown_observation(active[i], guidance[i]));
+    for (std::size_t i = 0; i < active.size(); ++i) seen.push_back(grown_observation(active[i], guided[i]));
     // commands are the plugin's to write to: not part of the inputs that are compared
     Inputs commands_memory(stage_.settings.grown_bytes);
     const std::vector<dmrp_command> empty(active.size());
@@ -144,7 +175,9 @@ class ControllerCalls {
   std::uint32_t end_;
   dmrp_local_controller table_;
   StageExtensions extensions_;
+  Plan plan_;
   Dispatcher dispatcher_;
+  std::uint32_t handed_end_ = Stage::whole_path;  // of the paths
   Inputs inputs_;
   std::vector<std::uint64_t> revisions_;  // of paths, by robot
   std::int64_t tick_ = 0;

@@ -28,8 +28,8 @@ class PedestrianCalls {
       instance_.end_trial(end, step_, stage_budget_ns);
       return false;
     }
-    const auto people = stage_.world.people();
-    const auto robots = stage_.world.robot_agents();
+    const std::vector<dmrp_person> people = stage_.people();
+    const std::vector<dmrp_agent> robots = stage_.agents(stage_.world.robot_agents());
     const std::vector<dmrp_motion> none(people.size());
     inputs_.clear();
     // motions are the plugin's to write to: not part of the inputs that are compared

@@ -24,6 +24,7 @@ class Rehearsal {
   // The next calls; false once the trial is over.
   bool advance();
 
+  Stage& stage() { return *stage_; }
   const Outputs& outputs() const { return outputs_; }
 
  private:

@@ -115,9 +115,9 @@ void Measurement::observe(const dmrp_sample& sample) {
   const auto* const bytes = reinterpret_cast<const std::byte*>(&sample);
   shown_.assign(bytes, bytes + sample.struct_size);  // with what a newer sample has more
   auto& shown = *reinterpret_cast<dmrp_sample*>(shown_.data());
-  if (!(info_.channels & DMRP_CHANNEL_PEOPLE)) shown.person_count = 0;
-  if (!(info_.channels & DMRP_CHANNEL_CALLS)) shown.call_count = 0;
-  if (!(info_.channels & DMRP_CHANNEL_ROUTES)) shown.route_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_PEOPLE)) shown.people = nullptr, shown.person_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_CALLS)) shown.calls = nullptr, shown.call_count = 0;
+  if (!(info_.channels & DMRP_CHANNEL_ROUTES)) shown.routes = nullptr, shown.route_count = 0;
   if (!(info_.channels & DMRP_CHANNEL_RECOVERIES)) leave_out_recoveries(shown);
   metric_.call("observe", step_++, call_budget_ns_, Answers::no_other,
                [&] { return table_.observe(metric_.self(), &shown); });

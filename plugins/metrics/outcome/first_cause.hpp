@@ -50,7 +50,7 @@ class FirstCause final : public Metric {
       const bool is_held = robot.failure == DMRP_FAILURE_HELD_BEHIND;
       const bool has_culprit = robot.culprit < end.robots.size();
       const std::uint32_t of_culprit = is_held && has_culprit ? end.robots[robot.culprit].failure : DMRP_FAILURE_NONE;
-      causes.push_back(failed ? of_culprit != DMRP_FAILURE_NONE ? of_culprit : robot.failure : undefined);
+      causes.push_back(failed ? known(of_culprit != DMRP_FAILURE_NONE ? of_culprit : robot.failure) : undefined);
       culprits.push_back(failed && has_culprit ? robot.culprit : undefined);
       held.push_back(failed ? is_held : undefined);
       after_standstill.push_back(runs_on_[i] ? robot.arrival_ns >= 0 : undefined);
@@ -62,6 +62,11 @@ class FirstCause final : public Metric {
   }
 
  private:
+  // Failures are an open list.
+  static std::uint32_t known(std::uint32_t failure) {
+    return failure <= DMRP_FAILURE_STUCK ? failure : DMRP_FAILURE_TIMEOUT;
+  }
+
   // The least of those that occur most often.
   static double most_frequent(const std::vector<double>& values) {
     std::map<double, int> counts;
