@@ -103,7 +103,7 @@ class Planted : public Kind {
     if (has("writes to the world")) const_cast<dmrp::Limits&>(*start.world.robots()[0].limits).v_max = 3.0;
     if (!has("keeps the last trial")) calls_ = 0;
     far_ = start.world->lower.x > 1e5;
-    headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals->pose.theta);
+    headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals()[0].pose.theta);
     if (has("asks for the undeclared")) this->template find_extension<dmrp_lidar>();
     if (has("needs the optional") && !this->template find_extension<dmrp_annotate>()) crash();
     if (has("compares the host") && this->host().c()->struct_size != sizeof(dmrp_host)) return Status::error;
@@ -198,7 +198,7 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
     if (has("odd status")) return static_cast<Status>(99);
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
       const dmrp::PlanningRobot& robot = problem.robots[i];
-      const dmrp::Pose goal = robot.goals->pose;
+      const dmrp::Pose goal = robot.goals()[0].pose;
       const double middle = 0.5 * (robot.start.x + goal.x);
       // a walled hall: the wall is in the middle
       const dmrp::Grid& grid = problem.grid;
@@ -272,7 +272,7 @@ class Metric final : public Planted<dmrp::Metric> {
                                          dmrp::Subjects::system, "a number");
   }
 
-  void begin(const dmrp::MetricTrial& trial) override { has_plan_ = trial.plan != nullptr; }
+  void begin(const dmrp::MetricTrial& trial) override { has_plan_ = static_cast<bool>(trial.plan); }
   void observe(const dmrp::Sample& sample) override {
     if (has("has room for 100") && sample.people.size() > 100) crash();
     if (has("takes every contact"))
