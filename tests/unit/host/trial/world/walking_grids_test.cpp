@@ -70,6 +70,13 @@ TEST_CASE("requests out of range get no grid") {
   CHECK(ask(grids, 0.5, 0.0) != nullptr);
 }
 
+TEST_CASE("a request with a reserved field that is set gets no grid, even if there is one for the rest of it") {
+  WalkingGrids grids(std::make_shared<const core::StaticGeometry>(furnished_hall()));
+  REQUIRE(ask(grids, 0.5, 0.3) != nullptr);
+  const Grown<dmrp_walking_grid_request> request({0, 7, 0.5, 0.3}, 0);
+  CHECK(grids.extension()->grid(grids.extension(), request.get()) == nullptr);
+}
+
 TEST_CASE("a stored trace's world gives the grid of the trial's") {
   OddStage stage;
   stage.experiment.scenarios[0].scenario = furnished_hall();
