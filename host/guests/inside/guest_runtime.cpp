@@ -140,10 +140,10 @@ void GuestRuntime::offer(std::uint32_t number, Seat& seat) {
   if (seat.info->kind == DMRP_KIND_LOCAL_CONTROLLER)
     seat.sensors = std::make_unique<SensorReadings>(
         [this, number](GuestQuestion::Kind kind, std::uint32_t robot) { return reading(number, kind, robot); });
-  seat.instance->offer([&seat](std::string_view id) -> const void* {
+  seat.instance->offer([this, &seat](std::string_view id) -> const void* {
     if (id == DMRP_EXT_ANNOTATE && seat.info->kind != DMRP_KIND_METRIC) return seat.annotations->extension();
     if (seat.sensors) return seat.sensors->extension(id);
-    return id == DMRP_EXT_WALKING_GRID && seat.grids ? seat.grids->extension() : nullptr;
+    return id == DMRP_EXT_WALKING_GRID && seat.grids ? seat.grids->extension(&guard_) : nullptr;
   });
 }
 

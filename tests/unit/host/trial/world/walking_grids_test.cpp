@@ -31,7 +31,7 @@ core::Scenario furnished_hall() {
   return scenario;
 }
 
-const dmrp_grid* ask(const WalkingGrids& grids, double resolution_m, double radius_m, int extra = 0) {
+const dmrp_grid* ask(WalkingGrids& grids, double resolution_m, double radius_m, int extra = 0) {
   const dmrp_walking_grid* const extension = grids.extension();
   return extension->grid(extension, Grown<dmrp_walking_grid_request>({0, 0, resolution_m, radius_m}, extra).get());
 }
