@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/world/walking_grids.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "host/plugins/v1_sizes.hpp"
@@ -20,9 +22,15 @@ WalkingGrids::WalkingGrids(std::shared_ptr<const core::StaticGeometry> geometry)
                        const dmrp_walking_grid_request* theirs) noexcept -> const dmrp_grid* {
     if (!theirs || !has_v1_0<dmrp_walking_grid_request>(theirs->struct_size)) return nullptr;
     try {
+      WalkingGrids& own = *static_cast<WalkingGrids*>(self->context);
       const dmrp_walking_grid_request request = copy_struct(*theirs);
-      if (request.reserved != 0) return nullptr;
-      const Grid* const found = static_cast<WalkingGrids*>(self->context)->grid(request.resolution_m, request.radius_m);
+      if (request.reserved != 0) {
+        if (own.guard_)
+          own.guard_->refuse(
+              fmt::format("asked with {} in dmrp_walking_grid_request.reserved, which must be 0", request.reserved));
+        return nullptr;
+      }
+      const Grid* const found = own.grid(request.resolution_m, request.radius_m);
       return found ? &found->view : nullptr;
     } catch (...) {  // out of memory, or a stored world of shapes that this host does not know
       return nullptr;

@@ -12,6 +12,7 @@
 
 #include "core/scene/planning_grid.hpp"
 #include "core/scene/static_geometry.hpp"
+#include "host/plugins/calls/call_guard.hpp"
 
 namespace dmrp::host {
 
@@ -29,7 +30,11 @@ class WalkingGrids {
   // Computed by the first request. nullptr for a request out of range.
   const core::PlanningGrid* find(double resolution_m, double radius_m);
 
-  const dmrp_walking_grid* extension() const { return &extension_; }
+  // For plugins that `guard` calls: it refuses requests that break the contract.
+  const dmrp_walking_grid* extension(CallGuard* guard = nullptr) {
+    guard_ = guard;
+    return &extension_;
+  }
 
   // A grid, and what it is asked for by.
   struct Known {
@@ -55,6 +60,7 @@ class WalkingGrids {
   std::shared_ptr<const core::StaticGeometry> geometry_;  // of world_ by the first request
   std::map<std::pair<double, double>, std::unique_ptr<Grid>> grids_;
   dmrp_walking_grid extension_{};
+  CallGuard* guard_ = nullptr;
 };
 
 }  // namespace dmrp::host

@@ -109,7 +109,7 @@ class Planted : public Kind {
     if (has("writes to the world")) const_cast<dmrp::Limits&>(*start.world.robots()[0].limits).v_max = 3.0;
     if (!has("keeps the last trial")) calls_ = 0;
     far_ = start.world->lower.x > 1e5;
-    headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals->pose.theta);
+    headed_ = start.world.robots().size() > 0 && !std::isnan(start.world.robots()[0].goals()[0].pose.theta);
     if (has("asks for the undeclared")) this->template find_extension<dmrp_lidar>();
     if (has("needs the optional") && !this->template find_extension<dmrp_annotate>()) crash();
     if (has("compares the host") && this->host().c()->struct_size != sizeof(dmrp_host)) return Status::error;
@@ -204,7 +204,7 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
     if (has("odd status")) return static_cast<Status>(99);
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
       const dmrp::PlanningRobot& robot = problem.robots[i];
-      const dmrp::Pose goal = robot.goals->pose;
+      const dmrp::Pose goal = robot.goals()[0].pose;
       const double middle = 0.5 * (robot.start.x + goal.x);
       // a walled hall: the wall is in the middle
       const dmrp::Grid& grid = problem.grid;
@@ -215,7 +215,7 @@ class Planner final : public Planted<dmrp::GlobalPlanner> {
           {robot.start.x, robot.start.y, std::nan(""), problem.effective_from_ns, robot.first_goal_index, 0}};
       for (std::uint32_t g = 0; g < robot.goal_count; ++g) {
         if (robot.state != DMRP_ROBOT_ACTIVE && !has("moves the dead")) break;
-        const dmrp::Pose at = dmrp::goals(robot)[g].pose;
+        const dmrp::Pose at = robot.goals()[g].pose;
         const double length_m = std::hypot(at.x - path.back().x, at.y - path.back().y);
         if (length_m == 0.0 && !has("divides by the length")) continue;
         const double duration_s = has("divides by the length") ? 20.0 / length_m * length_m : 20.0 + shift;
@@ -295,7 +295,10 @@ class Controller final : public Planted<dmrp::LocalController> {
   }
 
  private:
-  const dmrp_goal* start_goals(const dmrp::Observation& now) const { return world().robots()[now.robot].goals; }
+  const dmrp_goal* start_goals(const dmrp::Observation& now) const {
+    const dmrp_robot& robot = world().robots()[now.robot];
+    return robot.goals;
+  }
 
   const dmrp_agent* kept_ = nullptr;
   double length_m_ = 0.0;
@@ -345,7 +348,7 @@ class Metric final : public Planted<dmrp::Metric> {
   void begin(const dmrp::MetricTrial& trial) override {
     calls_ = 0;
     classes_.assign(DMRP_CLASS_STUCK + 1, 0);
-    has_plan_ = trial.plan != nullptr;
+    has_plan_ = static_cast<bool>(trial.plan);
   }
   void observe(const dmrp::Sample& sample) override {
     if (has("has room for 100") && sample.people.size() > 100) crash();

@@ -41,7 +41,7 @@ struct PlanSink {
   PlanSink& operator=(const PlanSink&) = delete;
 };
 
-// Two robots on a grid with one and two goals, and the plan in force.
+// Two robots on a grid with two goals and one, and the plan in force, if there is one.
 struct Problem {
   std::vector<Longer<dmrp_goal>> goals{2};
   std::vector<Longer<dmrp_planning_robot>> robots{2};
@@ -182,6 +182,20 @@ TEST_CASE("a planner reads the problem by its strides and writes into the sink")
   CHECK(of_window.flags == std::vector<std::uint32_t>{DMRP_PATH_PARTIAL, DMRP_PATH_PARTIAL});
 }
 
+TEST_CASE("a planner reads the plan in force by its stride") {
+  PathAlongX first{2}, second{4};
+  std::vector<Longer<dmrp_path>> paths{{first.c()}, {second.c()}};
+  paths[1].known.flags = DMRP_PATH_PARTIAL;
+  Problem problem;
+  problem.c.in_force = &paths.front().known;
+  problem.c.in_force_count = 2;
+  problem.c.in_force_stride = sizeof(paths.front());
+  const Sample sample("sample.planner", "nothing");
+  PlanSink sink;
+  REQUIRE(sample.as<dmrp_global_planner>().plan(sample.c.self, &problem.c, &sink.c) == DMRP_OK);
+  CHECK(seen().numbers == std::vector<double>{7.0, 2.0, 1.0, 3.0, 0.0, 1.0});
+}
+
 TEST_CASE("a planner reads the window and how much time it has left") {
   Problem problem;
   problem.c.window_steps = 12;
@@ -252,7 +266,7 @@ TEST_CASE("a metric sees plan, samples and end, and its values reach the sink as
   REQUIRE(begin(sample) == DMRP_OK);
   CHECK(seen().numbers == std::vector<double>{4.0});
   REQUIRE(observe(sample) == DMRP_OK);
-  CHECK(seen().numbers == std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0});
+  CHECK(seen().numbers == std::vector<double>{1.0, 1.0, 2.0, 3.0, 0.5, 0.0, 77.0, 2.0, 88.0, 0.0, 1.0, 1.0, 0.0});
   sink.said.clear();
   REQUIRE(finish(sample) == DMRP_OK);
   CHECK(sink.said == std::vector<std::string>{"plain 0 0 - 30", "timed 1 1 - -", "curved 2 12 - 10", "curved 0 0 5 20",

@@ -185,10 +185,12 @@ class SamplePlanner final : public dmrp::GlobalPlanner {
 
   dmrp::Status plan(const dmrp::PlanningProblem& problem, dmrp::PlanSink& sink) override {
     seen().numbers = {static_cast<double>(problem.grid.width), static_cast<double>(problem.in_force.size())};
+    for (const dmrp::Path& path : problem.in_force) seen().numbers.push_back(path.back().x);
+    for (std::size_t i = 0; i < problem.in_force.size(); ++i)
+      seen().numbers.push_back(problem.in_force[i].is_partial() ? 1.0 : 0.0);
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) {
       std::vector<dmrp::Waypoint> path = {{problem.robots[i].start.x, problem.robots[i].start.y, 0.0, 0, 0, 0}};
-      for (const dmrp::Goal& goal : dmrp::goals(problem.robots[i]))
-        path.push_back({goal.pose.x, goal.pose.y, 0.0, 1, 0, 0});
+      for (const dmrp::Goal& goal : problem.robots[i].goals()) path.push_back({goal.pose.x, goal.pose.y, 0.0, 1, 0, 0});
       sink.path(i, path, does == "give partial paths");
     }
     sink.statistic("cost", 3.0);
@@ -237,7 +239,7 @@ class SampleMetric final : public dmrp::Metric {
   dmrp::Param<std::string> does = param("does", "nothing");
 
   void begin(const dmrp::MetricTrial& trial) override {
-    seen().numbers = {trial.plan ? static_cast<double>(dmrp::Plan(*trial.plan).path(1).size()) : -1.0};
+    seen().numbers = {trial.plan ? static_cast<double>(trial.plan.path(1).size()) : -1.0};
     leave(does);
   }
   void observe(const dmrp::Sample& sample) override {
@@ -247,8 +249,11 @@ class SampleMetric final : public dmrp::Metric {
     for (const dmrp::Contact& contact : sample.contacts) seen().numbers.push_back(contact.depth_m);
     for (const dmrp::Call& call : sample.calls) seen().numbers.push_back(static_cast<double>(call.duration_ns));
     for (const dmrp::RobotEvent& event : sample.events) seen().numbers.push_back(1.0 * event.detail);
-    for (const dmrp::Route& route : sample.routes)
-      for (const dmrp::Waypoint& waypoint : dmrp::Path(*route.path)) seen().numbers.push_back(waypoint.x);
+    for (const dmrp::Route& route : sample.routes) {
+      for (const dmrp::Waypoint& waypoint : route.path()) seen().numbers.push_back(waypoint.x);
+      seen().numbers.push_back(route.path().continues() ? 1.0 : 0.0);
+    }
+    seen().numbers.push_back(static_cast<double>(sample.plan.size()));
     leave(does);
   }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {

@@ -69,6 +69,28 @@ for name in anytime central; do
   [[ $(values_of "$name") == "$(values_of "${name}_again")" ]] || fail "$name has other values in a second run"
 done
 
+# a window is a time: however many waypoints a planner of any angles puts into ten steps, the robot does not stop for it
+mkdir empty_hall
+cat >empty_hall/scenario.toml <<END
+[scenario]
+name = "empty_hall"
+title = "Empty hall"
+description = "one robot drives straight ahead"
+size_m = [40.0, 6.0]
+time_limit_s = 300.0
+[[robot]]
+name = "eastward"
+start = [1.5, 3.0, 0.0]
+goal = [38.5, 3.0]
+END
+experiment any_angle org.example.straight_ahead $pure_pursuit $social_force straight_ahead "replan_window_steps = 10
+replan_period_steps = 5" 1
+sed -i -e 's|^use = "crossing"|use = "./empty_hall/scenario.toml"|' -e 's/^trials .*/trials = 1/' \
+  -e 's/^use = "org.example.straight_ahead"/&\nsweep = { waypoint_ms = [100, 1000, 9000] }/' any_angle.toml
+expect_status 0 "$host" any_angle.toml --quiet --out any_angle
+[[ $(query any_angle "SELECT count(*), min(outcome), max(outcome), max(sim_time_s) < 1.1 * min(sim_time_s) FROM trial") == \
+  "3|succeeded|succeeded|1" ]] || fail "any angles: $(query any_angle "SELECT global_planner, outcome, sim_time_s FROM trial")"
+
 # the plan in force was the start of most calls, and never became more expensive
 kept=$(awk '/kept/ { n++; if ($NF > $(NF - 1)) exit 1 } END { print n + 0 }' anytime/log.txt) ||
   fail "the anytime planner made a plan more expensive: $(cat anytime/log.txt)"

@@ -106,7 +106,7 @@ class PrioritizedPlanner final : public dmrp::GlobalPlanner {
     task.start = task.grid.index_of(robot.start);
     // A tour has several goals; those that the robot has reached are gone. Their poses lie at the centres of cells, and
     // `theta` is NaN where any heading will do.
-    for (const dmrp::Goal& goal : dmrp::goals(robot))
+    for (const dmrp::Goal& goal : robot.goals())
       task.goals.push_back(task.grid.index_of(dmrp::Vec2{goal.pose.x, goal.pose.y}));
     task.steps_left.resize(task.goals.size());
     std::uint32_t rest = 0;

@@ -61,7 +61,8 @@ const void* GrownExtensions::grown(std::string_view id, const void* extension) {
 }
 
 StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Stage& stage, std::uint32_t robots)
-    : info_(info),
+    : guard_(instance.guard()),
+      info_(info),
       stage_(stage),
       annotations_(annotated_, 0),
       lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
@@ -80,7 +81,7 @@ const void* StageExtensions::own(std::string_view id) {
   if (id == DMRP_EXT_ANNOTATE) return info_.kind == DMRP_KIND_METRIC ? nullptr : annotations_.extension();
   if (id == DMRP_EXT_WALKING_GRID)
     return info_.kind == DMRP_KIND_PEDESTRIAN_MODEL || info_.kind == DMRP_KIND_METRIC
-               ? stage_.variant.walking_grids->extension()
+               ? stage_.variant.walking_grids->extension(&guard_)
                : nullptr;
   return info_.kind == DMRP_KIND_LOCAL_CONTROLLER ? sensor_readings_.extension(id) : nullptr;
 }

@@ -66,6 +66,7 @@ class StageExtensions {
   const void* find(std::string_view id);
   const void* own(std::string_view id);
 
+  CallGuard& guard_;
   const PluginInfo& info_;
   Stage& stage_;
   AnnotationBuffer annotated_{true};  // nobody reads it

@@ -140,10 +140,10 @@ void GuestRuntime::offer(std::uint32_t number, InstanceHandle& handle) {
   if (handle.info->kind == DMRP_KIND_LOCAL_CONTROLLER)
     handle.sensors = std::make_unique<SensorReadings>(
         [this, number](GuestQuestion::Kind kind, std::uint32_t robot) { return reading(number, kind, robot); });
-  handle.instance->offer([&handle](std::string_view id) -> const void* {
+  handle.instance->offer([this, &handle](std::string_view id) -> const void* {
     if (id == DMRP_EXT_ANNOTATE && handle.info->kind != DMRP_KIND_METRIC) return handle.annotations->extension();
     if (handle.sensors) return handle.sensors->extension(id);
-    return id == DMRP_EXT_WALKING_GRID && handle.grids ? handle.grids->extension() : nullptr;
+    return id == DMRP_EXT_WALKING_GRID && handle.grids ? handle.grids->extension(&guard_) : nullptr;
   });
 }
 

@@ -163,9 +163,9 @@ MetricResult without_values(const PluginInfo& info, std::uint32_t index) {
 MetricResult measure(core::TraceReader& trace, const std::shared_ptr<WalkingGrids>& walking_grids, Instance& metric,
                      const PluginInfo& info, std::uint32_t index, std::uint64_t seed, std::int64_t call_budget_ns) {
   if (!trace.end()) throw std::invalid_argument("the trace was cut short: it has no end");
-  metric.offer([grids = std::weak_ptr(walking_grids)](std::string_view id) -> const void* {
+  metric.offer([grids = std::weak_ptr(walking_grids), &guard = metric.guard()](std::string_view id) -> const void* {
     const auto here = grids.lock();
-    return here && id == DMRP_EXT_WALKING_GRID ? here->extension() : nullptr;
+    return here && id == DMRP_EXT_WALKING_GRID ? here->extension(&guard) : nullptr;
   });
   Measurement measurement(metric, info, index, trace.world().robot_count, call_budget_ns);
   try {

@@ -78,6 +78,14 @@ void CallGuard::set_error(const dmrp_host* caller, const char* text) noexcept {
   }
 }
 
+void CallGuard::refuse(const std::string& text) noexcept {
+  const std::lock_guard lock(text_mutex_);
+  try {
+    if (caller_ && refusal_.empty()) refusal_ = text;
+  } catch (...) {  // out of memory: the text is lost
+  }
+}
+
 void CallGuard::depends_on_timing(const dmrp_host* caller, const std::string& plugin, const char* text) noexcept {
   const std::lock_guard lock(text_mutex_);
   if (caller_ != caller) return;
@@ -137,9 +145,11 @@ void CallGuard::enter(const dmrp_host* caller, const CallSite& site, std::int64_
 CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::int32_t status, bool threw) {
   if (own_process::is_copy()) _exit(0);
   const std::int64_t duration_ns = monotonic_ns() - start_ns_;
+  std::string refusal;
   {
     const std::lock_guard lock(text_mutex_);
     caller_ = nullptr;
+    refusal.swap(refusal_);
     if (stopped_.exchange(false))
       add_timing(std::string(site.plugin), fmt::format("{}() was stopped by its time budget", site.function));
     if (asked_time_.exchange(false))
@@ -154,6 +164,7 @@ CallGuard::Result CallGuard::leave(const CallSite& site, Answers answers, std::i
   if (!processes_allowed_ && is_long && own_process::has_children())
     throw PluginFault(fault_kind::abi_breach, site, "left a process behind", true);
   if (threw) throw PluginFault(fault_kind::abi_breach, site, "let a C++ exception out");
+  if (!refusal.empty()) throw PluginFault(fault_kind::abi_breach, site, refusal);
   switch (known_status(status)) {
     case DMRP_OK:
     case DMRP_WARNING:

@@ -58,6 +58,9 @@ class CallGuard {
   std::int64_t budget_left_ns(const dmrp_host* caller) noexcept;
   void set_error(const dmrp_host* caller, const char* text) noexcept;
 
+  // The host refuses what the call that runs has asked of an extension: a breach, whatever the call returns.
+  void refuse(const std::string& text) noexcept;
+
   // From now on should_stop() returns true after so many asks in a call, whatever the time. How often the calls have asked
   // since.
   void stop_after_asks(std::int64_t count);
@@ -92,6 +95,7 @@ class CallGuard {
   CallNote& note_;
   mutable std::mutex text_mutex_;
   std::string error_;
+  std::string refusal_;  // of the call that runs: the first
   std::vector<TimingReason> timing_;
   std::int64_t start_ns_ = 0;
   std::atomic<const dmrp_host*> caller_ = nullptr;  // of the call that runs

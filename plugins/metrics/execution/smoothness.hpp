@@ -72,7 +72,7 @@ class Smoothness final : public ActiveTimeMetric<RobotMotion> {
     double heading = robot.start.theta;
     Vec2 at = toolkit::position(robot.start);
     double goal_heading = undefined;
-    for (const Goal& goal : Span<Goal>(robot.goals, robot.goal_count, robot.goal_stride)) {
+    for (const Goal& goal : robot.goals()) {
       const Vec2 next = toolkit::position(goal.pose);
       goal_heading = goal.pose.theta;
       if (next == at) continue;

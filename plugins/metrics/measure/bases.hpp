@@ -20,9 +20,9 @@ class FirstPlanMetric : public Metric {
   void observe(const Sample&) final {}
 
  protected:
-  bool has_paths() const { return first_plan_ && first_plan_->path_count > 0; }
+  bool has_paths() const { return first_plan_.size() > 0; }
 
-  const dmrp_plan* first_plan_ = nullptr;  // none if planning failed
+  Plan first_plan_;  // none if planning failed
 };
 
 // Has a state for each robot, from which its values are computed at the end.

@@ -65,8 +65,7 @@ inline std::vector<double> overlapping_shares(const std::vector<Steps>& all, dou
 }
 
 // Of a plan with at least one path.
-inline std::vector<Steps> resample_all(const dmrp_plan& c, std::int64_t step_ns) {
-  const Plan plan(c);
+inline std::vector<Steps> resample_all(const Plan& plan, std::int64_t step_ns) {
   std::int64_t start_ns = plan.path(0)[0].t_ns;
   for (std::size_t robot = 1; robot < plan.size(); ++robot) start_ns = std::min(start_ns, plan.path(robot)[0].t_ns);
   std::vector<Steps> all;

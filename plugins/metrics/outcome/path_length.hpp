@@ -34,7 +34,7 @@ class PathLength final : public Metric {
   void finish(const TrialEnd&, MetricSink& sink) override {
     std::vector<double> driven_m, planned_m, turns;
     for (std::size_t robot = 0; first_plan_ && robot < world().robots().size(); ++robot) {
-      const Path path = Plan(*first_plan_).path(robot);
+      const Path path = first_plan_.path(robot);
       driven_m.push_back(driven_.of_robot(robot));
       planned_m.push_back(toolkit::length(path));
       turns.push_back(count_turns(path));
@@ -66,7 +66,7 @@ class PathLength final : public Metric {
     return count;
   }
 
-  const dmrp_plan* first_plan_ = nullptr;
+  Plan first_plan_;
   DrivenLength driven_;
 };
 

@@ -30,7 +30,7 @@ class ShortestWay {
   double tour_length(const Robot& robot) {
     double sum_m = 0.0;
     Vec2 at = toolkit::position(robot.start);
-    for (const Goal& goal : Span<Goal>(robot.goals, robot.goal_count, robot.goal_stride)) {
+    for (const Goal& goal : robot.goals()) {
       const Vec2 next = toolkit::position(goal.pose);
       sum_m += length(at, next, robot.footprint->radius_m);
       at = next;

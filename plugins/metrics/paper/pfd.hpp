@@ -81,11 +81,11 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
   void add_step(PathDeviations& own, std::size_t robot, const Sample& sample) override {
     if (!sample.control_tick) return;
     const Vec2 position = toolkit::position(sample.robots[robot].pose);
-    if (sample.plan) own.in_force.add(distance_to(Plan(*sample.plan).path(robot), position));
-    if (first_plan_) own.initial.add(distance_to(Plan(*first_plan_).path(robot), position));
+    if (sample.plan) own.in_force.add(distance_to(sample.plan.path(robot), position));
+    if (first_plan_) own.initial.add(distance_to(first_plan_.path(robot), position));
   }
 
-  const dmrp_plan* first_plan_ = nullptr;
+  Plan first_plan_;
 };
 
 }  // namespace dmrp::metrics

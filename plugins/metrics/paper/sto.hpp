@@ -39,7 +39,7 @@ class Sto final : public FirstPlanMetric {
   void finish(const TrialEnd&, MetricSink& sink) override {
     if (has_paths() && first_plan_->step_duration_ns <= 0)
       throw std::invalid_argument("STO needs a plan with a step duration above 0");
-    const auto all = has_paths() ? resample_all(*first_plan_, first_plan_->step_duration_ns) : std::vector<Steps>();
+    const auto all = has_paths() ? resample_all(first_plan_, first_plan_->step_duration_ns) : std::vector<Steps>();
     const auto steps = static_cast<std::size_t>(*window);
     give(sink, "sto", &mean_of_defined, overlapping_shares(all, distance_m, steps));
     give_curve(sink, "sto_by_distance", distances_m,

@@ -36,7 +36,7 @@ class Collisions final : public Metric {
   }
 
   void begin(const MetricTrial& trial) override {
-    planned_ = trial.plan != nullptr;
+    planned_ = static_cast<bool>(trial.plan);
     events_.clear();
     latest_.clear();
   }

@@ -33,7 +33,7 @@ class RootConflicts final : public FirstPlanMetric {
     std::optional<Counts> counts;
     const bool tours = std::any_of(world().robots().begin(), world().robots().end(),
                                    [](const Robot& one) { return one.goal_count > 1; });
-    if (has_paths() && !tours) counts = count(GridView(*world()->planning_grid), Plan(*first_plan_));
+    if (has_paths() && !tours) counts = count(GridView(*world()->planning_grid), first_plan_);
     sink.system("root_conflicts", counts ? counts->root : undefined);
     sink.system("root_conflicts_waited", counts ? counts->waited : undefined);
     sink.system("root_conflicts_detoured", counts ? counts->detoured : undefined);

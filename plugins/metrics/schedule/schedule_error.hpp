@@ -43,8 +43,8 @@ class ScheduleError final : public RobotMetric<Schedule> {
   }
 
   void observe(const Sample& sample) override {
-    if (!sample.plan || sample.plan->path_count == 0) return;
-    if (sample.plan->revision != revision_) follow(*sample.plan);
+    if (sample.plan.size() == 0) return;
+    if (sample.plan->revision != revision_) follow(sample.plan);
     constexpr double rounding_m = 1e-9;  // arcs are summed in two places
     for (std::size_t robot = 0; robot < states_.size(); ++robot) {
       Schedule& schedule = states_[robot];
@@ -64,9 +64,8 @@ class ScheduleError final : public RobotMetric<Schedule> {
   }
 
  private:
-  void follow(const dmrp_plan& c_plan) {
-    revision_ = c_plan.revision;
-    const Plan plan(c_plan);
+  void follow(const Plan& plan) {
+    revision_ = plan->revision;
     for (std::size_t robot = 0; robot < states_.size(); ++robot) {
       Schedule& schedule = states_[robot];
       schedule.dues.clear();

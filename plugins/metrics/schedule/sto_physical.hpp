@@ -23,7 +23,7 @@ class StoPhysical final : public FirstPlanMetric {
   Param<double> window_s = param("window_s", 3.6).unit("s").range(0.0, 1000.0).doc("greatest difference of times");
 
   void finish(const TrialEnd&, MetricSink& sink) override {
-    const auto all = has_paths() ? resample_all(*first_plan_, period_ns) : std::vector<Steps>();
+    const auto all = has_paths() ? resample_all(first_plan_, period_ns) : std::vector<Steps>();
     constexpr double rounding = 1e-9;  // 3.6 s is a whole number of tenths, not of binary fractions
     const double window = std::floor(*window_s * 1e9 / static_cast<double>(period_ns) + rounding);
     give(sink, "sto_physical", &mean_of_defined, overlapping_shares(all, distance_m, static_cast<std::size_t>(window)));

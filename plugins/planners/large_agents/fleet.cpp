@@ -166,7 +166,7 @@ void Fleet::note_ends(const PlanningRobot& robot, std::uint32_t number, std::siz
     const auto [column, row] = cell_of(*robot.grid, point);
     return Place{column, row, stands_on(*robot.grid, index_of(*robot.grid, column, row), bodies_[body])};
   };
-  const dmrp_pose& goal = goals(robot)[robot.goal_count - 1].pose;
+  const dmrp_pose& goal = robot.goals().back().pose;
   ends_.push_back({number, body, place_at(robot.start), place_at({goal.x, goal.y})});
 }
 

@@ -43,7 +43,7 @@ void write_resting_robots(const PlanningProblem& host_problem, PlanSink& sink) {
 template <Direction connectivity>
 Agent agent_on(const BasicGridGraph<connectivity>& graph, const PlanningRobot& robot, std::uint32_t number) {
   Agent agent{number, graph.locate(robot.start), {}, robot.first_goal_index};
-  for (const Goal& goal : goals(robot)) agent.goals.push_back(graph.locate({goal.pose.x, goal.pose.y}));
+  for (const Goal& goal : robot.goals()) agent.goals.push_back(graph.locate({goal.pose.x, goal.pose.y}));
   return agent;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "planners/pibt/pibt.hpp"
 
+#include <algorithm>
+
 #include "planners/mapf/straighten.hpp"
 #include "planners/pibt/pibt_step.hpp"
 
@@ -8,15 +10,24 @@ namespace dmrp::planners {
 
 namespace {
 
+// The steps that each robot has waited for its next progress: a replan keeps the priority that it has earned.
+std::vector<std::int32_t> steps_waited(const PlanningProblem& host_problem, const Problem& problem) {
+  std::vector<std::int32_t> steps;
+  for (const Agent& agent : problem.agents) {
+    const std::int64_t waited = host_problem.robots[agent.robot].waiting_ns / host_problem.step_duration_ns;
+    steps.push_back(static_cast<std::int32_t>(std::clamp<std::int64_t>(waited, 0, forever)));
+  }
+  return steps;
+}
+
 // The configurations from the start to rest; without rest at the end after `steps` steps or a stop.
-std::vector<Configuration> run_pibt(const Preparation& prepared, std::int64_t steps, std::uint64_t seed,
-                                    StopSignal& stop) {
+std::vector<Configuration> run_pibt(const Preparation& prepared, std::vector<std::int32_t> steps_underway,
+                                    std::int64_t steps, std::uint64_t seed, StopSignal& stop) {
   const auto agents = static_cast<std::int32_t>(prepared.problem.agents.size());
   PibtStep pibt(prepared.problem, prepared.tables);
   const Priorities priorities(prepared.problem, prepared.tables);
   toolkit::Stream random(seed, "pibt.ties");
   std::vector<Configuration> configurations = {start_configuration(prepared.problem)};
-  std::vector<std::int32_t> steps_underway(prepared.problem.agents.size(), 0);
   std::vector<std::int32_t> order;
   for (std::int64_t step = 0; step < steps && !stop.poll_now(); ++step) {
     const Configuration& now = configurations.back();
@@ -52,7 +63,8 @@ Status Pibt::solve(const PlanningProblem& host_problem, const Preparation& prepa
   const std::uint32_t window_steps = host_problem.window_steps;
   if (window_steps == 0) sink.statistic("lower_bound", prepared.lower_bound());
   const std::vector<Configuration> configurations =
-      run_pibt(prepared, window_steps > 0 ? window_steps : *step_limit, seed(), stop);
+      run_pibt(prepared, steps_waited(host_problem, prepared.problem), window_steps > 0 ? window_steps : *step_limit,
+               seed(), stop);
   std::vector<const Configuration*> sequence;
   for (const Configuration& configuration : configurations) sequence.push_back(&configuration);
   std::vector<std::vector<Location>> paths = paths_of(sequence, prepared.tables);

@@ -32,7 +32,10 @@ class Planner final : public dmrp::GlobalPlanner {
     mix(&all_, static_cast<double>(problem.revision)), mix_time(&all_, problem.now_ns);
     mix_time(&all_, problem.effective_from_ns), mix_time(&all_, problem.step_duration_ns);
     mix(&all_, problem.window_steps), mix_grid(&all_, &problem.grid);
-    for (const dmrp_path& path : problem.in_force) mix_path(&all_, &path);
+    for (const dmrp::Path& path : problem.in_force) {
+      mix(&all_, static_cast<double>(path.size())), mix(&all_, path.is_partial());
+      for (const dmrp::Waypoint& waypoint : path) mix_waypoint(&all_, &waypoint);
+    }
     std::uint32_t index = 0;
     for (const dmrp::PlanningRobot& robot : problem.robots) {
       mix_planning_robot(&all_, &robot);
@@ -46,7 +49,7 @@ class Planner final : public dmrp::GlobalPlanner {
   // Waits as many steps as the inputs say, then drives.
   std::vector<dmrp::Waypoint> way_of(const dmrp::PlanningRobot& robot, const dmrp::PlanningProblem& problem) const {
     const double cell_m = problem.grid.resolution_m;
-    const dmrp::Pose goal = dmrp::goals(robot)[0].pose;
+    const dmrp::Pose goal = robot.goals()[0].pose;
     std::vector<dmrp::Waypoint> way;
     const auto go = [&](double x) {
       const auto steps = static_cast<std::int64_t>(way.size());
@@ -151,11 +154,11 @@ class Metric final : public dmrp::Metric {
   void begin(const dmrp::MetricTrial& trial) override {
     all_ = {0.0};
     mix_world(&all_, world().operator->());
-    if (trial.plan) mix_plan(&all_, trial.plan);
+    if (trial.plan) mix_plan(&all_, trial.plan.operator->());
   }
   void observe(const dmrp::Sample& sample) override {
     mix_time(&all_, sample.t_ns), mix_time(&all_, sample.dt_ns), mix(&all_, sample.control_tick);
-    if (sample.plan) mix_plan(&all_, sample.plan);
+    if (sample.plan) mix_plan(&all_, sample.plan.operator->());
     for (const dmrp::RobotSample& robot : sample.robots) mix_robot_sample(&all_, &robot);
     for (const dmrp::Person& person : sample.people) mix_person(&all_, &person);
     for (const dmrp::Contact& contact : sample.contacts) mix_contact(&all_, &contact);

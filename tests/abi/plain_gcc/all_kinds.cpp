@@ -134,7 +134,7 @@ class Measure final : public dmrp::Metric {
         .value("length", "m", dmrp::Direction::lower_is_better, dmrp::Subjects::system_and_robots, "a length");
   }
   void begin(const dmrp::MetricTrial& trial) override {
-    length_ = trial.plan ? toolkit::length(dmrp::Plan(*trial.plan).path(0)) : 0.0;
+    length_ = trial.plan ? toolkit::length(trial.plan.path(0)) : 0.0;
   }
   void observe(const dmrp::Sample& sample) override { robots_ = sample.robots.size(); }
   void finish(const dmrp::TrialEnd& end, dmrp::MetricSink& sink) override {

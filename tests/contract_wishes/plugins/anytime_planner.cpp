@@ -152,7 +152,7 @@ class AnytimePlanner final : public dmrp::GlobalPlanner {
     for (const dmrp::PlanningRobot& robot : problem.robots) {
       Task task = {GridView(*robot.grid), GridView(*robot.grid).index_of(robot.start), {}};
       if (robot.state == DMRP_ROBOT_ACTIVE)
-        for (const dmrp::Goal& goal : dmrp::goals(robot))
+        for (const dmrp::Goal& goal : robot.goals())
           task.goals.push_back(task.grid.index_of(dmrp::Vec2{goal.pose.x, goal.pose.y}));
       tasks_.push_back(std::move(task));
     }
@@ -169,7 +169,7 @@ class AnytimePlanner final : public dmrp::GlobalPlanner {
       if (task.goals.empty()) {
         cells = {task.start};
       } else {
-        cells = rest_of(dmrp::Path(problem.in_force[i]), task, problem.effective_from_ns);
+        cells = rest_of(problem.in_force[i], task, problem.effective_from_ns);
         if (cells.empty() || !leads_to_goals(cells, task.goals)) return std::nullopt;
       }
       plan.push_back(std::move(cells));

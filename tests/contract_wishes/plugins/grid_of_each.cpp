@@ -44,8 +44,7 @@ class GridOfEach final : public dmrp::GlobalPlanner {
       const GridView grid(*robot.grid);
       std::vector<std::uint32_t> cells = {grid.index_of(robot.start)};
       std::vector<std::uint32_t> goal_of = {robot.first_goal_index};
-      const dmrp::Span<dmrp::Goal> goals =
-          robot.state == DMRP_ROBOT_ACTIVE ? dmrp::goals(robot) : dmrp::Span<dmrp::Goal>();
+      const dmrp::Span<dmrp::Goal> goals = robot.state == DMRP_ROBOT_ACTIVE ? robot.goals() : dmrp::Span<dmrp::Goal>();
       for (std::uint32_t k = 0; k < goals.size(); ++k) {
         const dmrp::Vec2 goal = {goals[k].pose.x, goals[k].pose.y};
         const std::vector<std::uint32_t> way = shortest_way(grid, cells.back(), grid.index_of(goal));

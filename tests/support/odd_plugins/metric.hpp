@@ -23,7 +23,8 @@ inline std::int32_t observe(dmrp_instance* self, const dmrp_sample*) {
 // The number of free cells for people; NaN without a grid.
 inline double free_cells(const dmrp_instance& self) {
   const auto* extension = static_cast<const dmrp_walking_grid*>(self.extension(DMRP_EXT_WALKING_GRID));
-  const Grown<dmrp_walking_grid_request> request({0, 0, 0.5, 0.3}, self.extra("request"));
+  const Grown<dmrp_walking_grid_request> request({0, self.is("reserved request") ? 7u : 0u, 0.5, 0.3},
+                                                 self.extra("request"));
   const dmrp_grid* const grid = extension->grid(extension, request.get());
   if (!grid) return std::numeric_limits<double>::quiet_NaN();
   double count = 0.0;

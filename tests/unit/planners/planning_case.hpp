@@ -29,6 +29,7 @@ struct CaseRobot {
   double radius_m = 0.15;            // of the circle around the outline; robots of this size fit the cells
   std::vector<dmrp_vec2> outline{};  // a convex polygon; none: the disc
   std::vector<CellXY> closed{};      // cells that are not free for this robot alone
+  int64_t waiting_ns = 0;
 };
 
 // Cells of 0.5 m with the lower left corner at (10, -3), so that planners cannot rely on unit cells or on the origin.
@@ -167,6 +168,7 @@ class CProblem {
     planning.goal_count = static_cast<uint32_t>(goals.size());
     planning.goal_stride = sizeof(dmrp_goal);
     planning.first_goal_index = 3;  // as if the robot had already reached three goals
+    planning.waiting_ns = robot.waiting_ns;
     planning.robot = &whole;
     planning.grid = grid_of(c, robot);
     planning.start = c.center(robot.start);

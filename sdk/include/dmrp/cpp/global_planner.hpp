@@ -10,7 +10,10 @@
 
 namespace dmrp {
 
-using PlanningRobot = dmrp_planning_robot;
+// dmrp_planning_robot with its goals as a span.
+struct PlanningRobot : dmrp_planning_robot {
+  Span<Goal> goals() const { return {dmrp_planning_robot::goals, goal_count, goal_stride}; }
+};
 
 // dmrp_planning_problem with spans for arrays. Valid until plan() returns.
 struct PlanningProblem {
@@ -33,11 +36,11 @@ struct PlanningProblem {
   std::uint32_t window_steps;  // 0: the whole way
   const Grid& grid;
   Span<PlanningRobot> robots;
-  Span<dmrp_path> in_force;  // empty for the first plan; Path(in_force[i]) views one
+  Paths in_force;  // by robot; empty for the first plan
 };
 
 inline Span<Goal> goals(const PlanningRobot& robot) {
-  return {robot.goals, robot.goal_count, robot.goal_stride};
+  return robot.goals();
 }
 
 class PlanSink {

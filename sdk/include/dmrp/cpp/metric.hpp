@@ -16,32 +16,38 @@ using RobotSample = dmrp_robot_sample;
 using Contact = dmrp_contact;
 using Call = dmrp_call;
 using RobotEvent = dmrp_robot_event;
-using Route = dmrp_route;
 using Statistic = dmrp_statistic;
 using Subject = dmrp_subject;
+
+// dmrp_route with its path as a view.
+struct Route : dmrp_route {
+  Path path() const { return Path(*dmrp_route::path, flags); }
+};
 
 // A value that is undefined for this trial: NULL in the results.
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-// dmrp_plan with spans. The plan is valid until finish() returns; an object of this class is a cheap view.
+// A plan with spans, if there is one. It is valid until finish() returns; an object of this class is a cheap view.
 class Plan {
  public:
-  explicit Plan(const dmrp_plan& c) : c_(&c) {}
+  Plan() = default;
+  explicit Plan(const dmrp_plan* c) : c_(c) {}
 
-  std::size_t size() const { return c_->path_count; }  // paths, one per robot
+  explicit operator bool() const { return c_ != nullptr; }
+  std::size_t size() const { return c_ ? c_->path_count : 0; }  // paths, one per robot
   Path path(std::size_t robot) const { return Path(*DMRP_AT(dmrp_path, c_->paths, c_->path_stride, robot)); }
   Span<Statistic> statistics() const { return {c_->statistics, c_->statistic_count, c_->statistic_stride}; }
   const dmrp_plan* operator->() const { return c_; }  // revision, from_ns, step_duration_ns, planning_ns, status
 
  private:
-  const dmrp_plan* c_;
+  const dmrp_plan* c_ = nullptr;
 };
 
 // What is known before the first sample.
 struct MetricTrial {
   explicit MetricTrial(const dmrp_metric_trial& c) : plan(c.plan) {}
 
-  const dmrp_plan* plan;  // the first; nullptr if planning failed or there are no robots. Valid until finish() returns
+  Plan plan;  // the first; none if planning failed or there are no robots
 };
 
 // dmrp_sample with spans. Valid until observe() returns.
@@ -61,13 +67,13 @@ struct Sample {
   std::int64_t t_ns;
   std::int64_t dt_ns;
   bool control_tick;
-  const dmrp_plan* plan;  // in force; nullptr if there is none. Plan(*plan) views it
+  Plan plan;  // in force, if there is one
   Span<RobotSample> robots;
   Span<Person> people;
   Span<Contact> contacts;
   Span<Call> calls;
   Span<RobotEvent> events;
-  Span<Route> routes;  // Path(*routes[i].path) views one
+  Span<Route> routes;
 };
 
 enum class Severity : std::uint32_t {

@@ -40,4 +40,39 @@ class Path : public Span<Waypoint> {
   std::uint32_t update_flags_;
 };
 
+// An array of paths. Valid as long as the array.
+class Paths {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Path;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = Path;
+
+    explicit Iterator(Span<dmrp_path>::Iterator at) : at_(at) {}
+
+    Path operator*() const { return Path(*at_); }
+    Iterator& operator++() { return ++at_, *this; }
+    Iterator operator++(int) { return Iterator(at_++); }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
+    friend bool operator!=(const Iterator& a, const Iterator& b) { return a.at_ != b.at_; }
+
+   private:
+    Span<dmrp_path>::Iterator at_;
+  };
+
+  Paths(const dmrp_path* base, std::size_t count, std::size_t stride) : paths_(base, count, stride) {}
+
+  std::size_t size() const { return paths_.size(); }
+  bool empty() const { return paths_.empty(); }
+  Path operator[](std::size_t index) const { return Path(paths_[index]); }
+  Iterator begin() const { return Iterator(paths_.begin()); }
+  Iterator end() const { return Iterator(paths_.end()); }
+
+ private:
+  Span<dmrp_path> paths_;
+};
+
 }  // namespace dmrp

@@ -28,9 +28,13 @@ using Limits = dmrp_limits;
 using Footprint = dmrp_footprint;
 using Polygon = dmrp_polygon;
 using Goal = dmrp_goal;
-using Robot = dmrp_robot;
 using Grid = dmrp_grid;
 using Shape = dmrp_shape;
+
+// dmrp_robot with its goals as a span.
+struct Robot : dmrp_robot {
+  Span<Goal> goals() const { return {dmrp_robot::goals, goal_count, goal_stride}; }
+};
 
 // As in status.h.
 enum class Status : std::int32_t {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <type_traits>
 
 #include "../abi.h"
 
@@ -57,6 +58,11 @@ class Span {
   Span() = default;
   Span(const T* base, std::size_t count, std::size_t stride = sizeof(T))
       : base_(base), count_(count), stride_(stride) {}
+  // T may be the elements' C struct with functions added.
+  template <class C, class = std::enable_if_t<std::is_base_of_v<C, T> && !std::is_same_v<C, T>>>
+  Span(const C* base, std::size_t count, std::size_t stride) : Span(static_cast<const T*>(base), count, stride) {
+    static_assert(sizeof(T) == sizeof(C) && std::is_standard_layout_v<T>, "T adds functions alone");
+  }
 
   std::size_t size() const { return count_; }
   std::size_t stride() const { return stride_; }  // for DMRP_STRIDE_HAS

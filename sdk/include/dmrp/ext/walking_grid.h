@@ -26,8 +26,8 @@ struct dmrp_walking_grid {
   void* context;  // the host's own
 
   // The grid of the world, whose `free` and `edges` hold for a disc of this radius. Equal requests get the same grid at
-  // no cost. NULL for a resolution or radius out of range, or one that gives more than 100 million cells. Valid until
-  // the next start() or destroy() begins.
+  // no cost. NULL for a resolution or radius out of range, for one that gives more than 100 million cells, and for a
+  // request with a reserved field that is not 0. Valid until the next start() or destroy() begins.
   // [step]
   const dmrp_grid* (*grid)(const dmrp_walking_grid* extension, const dmrp_walking_grid_request* request);
 };

@@ -70,6 +70,25 @@ TEST_CASE("flows that start in the same or in overlapping regions share the spac
     CHECK(toolkit::contains(toolkit::Rectangle{{5.0, 5.0}, {9.5, 9.5}}, world.people()[i].position));
 }
 
+TEST_CASE("people answer to robots as their flow says, and so do those who take their places") {
+  Scenario scenario = room(8);
+  scenario.shapes.clear();
+  scenario.flows[0].respawn = true;
+  scenario.flows[0].reaction = DMRP_REACTION_SCARED;
+  scenario.flows.push_back({"along", {0, 1}, 4});
+  World world = world_of(scenario);
+  const std::size_t slots = world.people().size();
+  REQUIRE(slots == 12);
+  std::set<std::uint64_t> ids;
+  for (; world.t_ns() < 20 * second_ns; world.step(straight_on(world)))
+    for (const dmrp_person& person : world.people()) {
+      const bool of_first_flow = person.id % slots < 8;
+      CHECK(person.reaction == (of_first_flow ? DMRP_REACTION_SCARED : DMRP_REACTION_UNSPECIFIED));
+      ids.insert(person.id);
+    }
+  CHECK(*ids.rbegin() >= slots);  // somebody has left and was replaced
+}
+
 TEST_CASE("people who leave free their slots, the others keep their ids, until nobody is left") {
   Scenario scenario = room(30);
   scenario.shapes.clear();

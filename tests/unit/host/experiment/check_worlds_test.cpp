@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/tasks/task_difficulty.hpp"
+#include "core/world/world.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/world/variant_world.hpp"
@@ -562,6 +563,20 @@ TEST_CASE("flows that start in their first region and leave for good") {
         "hall/scenario.toml:45:11: 'respawn' must be true or false, not an integer");
   CHECK_THAT(message_of_scenario("people = 2", "people = 50\nstart = \"from\""),
              Catch::Contains("hall/scenario.toml:40:1: no room in region 'west' for 50 people, for"));
+}
+
+TEST_CASE("a flow's reaction is that of its people") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", with(scenario_text, "people = 2", "people = 2\nreaction = \"scared\""));
+  const core::Scenario scenario = load(experiment_text).scenarios[0].scenario;
+  CHECK(scenario.flows[0].reaction == DMRP_REACTION_SCARED);
+  const auto geometry = std::make_shared<const core::StaticGeometry>(scenario);
+  const core::World world(scenario, core::RobotSettings{}, core::SimulationSettings{}, geometry, 1);
+  REQUIRE(world.people().size() == 2);
+  for (const dmrp_person& person : world.people()) CHECK(person.reaction == DMRP_REACTION_SCARED);
+  CHECK_THAT(message_of_scenario("people = 2", "people = 2\nreaction = \"afraid\""),
+             Catch::Contains("hall/scenario.toml:45:12: 'reaction' must be one of unspecified, regular, impassive, "
+                             "surprised, curious, scared, threatening, not 'afraid'"));
 }
 
 // Two robots start by the region 'west': of its 1 m x 2 m, people find but a corner that is 1.5 m away from both.

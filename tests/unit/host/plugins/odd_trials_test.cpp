@@ -220,6 +220,12 @@ TEST_CASE("a plugin or a table with a reserved field that is set is refused") {
               "returned OK with 7 in dmrp_plugin.table->reserved, which must be 0");
 }
 
+TEST_CASE("a request for a walking grid with a reserved field that is set is refused") {
+  OddStage request(metric, "reserved request");
+  check_fault(request, fault_kind::abi_breach, "finish",
+              "asked with 7 in dmrp_walking_grid_request.reserved, which must be 0");
+}
+
 TEST_CASE("a path with a reserved field or an unknown flag that is set is refused") {
   OddStage waypoint(planner, "reserved waypoint");
   check_fault(waypoint, fault_kind::error_status, "plan", "a reserved field of its waypoints is 7, not 0");

@@ -43,7 +43,7 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
     expect(problem.now_ns <= problem.effective_from_ns && (problem.now_ns > 0) == (plans_ > 0), "now");
     expect(problem.in_force.size() == (plans_ == 0 ? 0 : problem.robots.size()), "the plan in force");
     for (std::uint32_t i = 0; i < problem.in_force.size(); ++i)
-      expect(dmrp::Path(problem.in_force[i])[0].t_ns < problem.now_ns, "the plan in force is older");
+      expect(problem.in_force[i][0].t_ns < problem.now_ns, "the plan in force is older");
     if (once && plans_ > 0) return dmrp::Status::no_solution;
     for (std::uint32_t i = 0; i < problem.robots.size(); ++i) sink.path(i, path_of(problem, problem.robots[i]));
     ++plans_;
@@ -60,7 +60,7 @@ class AgainPlanner final : public dmrp::GlobalPlanner {
       path.push_back({x, robot.start.y, any_heading, t_ns, robot.first_goal_index, 0});
     };
     for (int wait = 0; wait < 2; ++wait) add(robot.start.x);
-    for (double x = robot.start.x + 1.0; x <= robot.goals->pose.x + 1e-6; x += 1.0) add(x);
+    for (double x = robot.start.x + 1.0; x <= robot.goals()[0].pose.x + 1e-6; x += 1.0) add(x);
     return path;
   }
 

@@ -54,7 +54,7 @@ class StraightPlanner final : public dmrp::GlobalPlanner {
       expect(robot.goal_count == 1 && robot.state == DMRP_ROBOT_ACTIVE, "a robot with one goal");
       std::vector<dmrp::Waypoint> path;
       std::int64_t t_ns = problem.effective_from_ns;
-      for (double x = robot.start.x; x <= robot.goals->pose.x + 1e-6; x += problem.grid.resolution_m) {
+      for (double x = robot.start.x; x <= robot.goals()[0].pose.x + 1e-6; x += problem.grid.resolution_m) {
         path.push_back({x, robot.start.y, any_heading, t_ns, 0, 0});
         t_ns += problem.step_duration_ns;
       }
@@ -99,7 +99,8 @@ class CarefulController final : public dmrp::LocalController {
     expect(!path.is_partial() && !path.continues(), "the whole way, and the first of it");
     path_.assign(path.begin(), path.end());
     const dmrp::Robot& robot = world().robots()[robot_];
-    expect(path_.back().x == robot.goals->pose.x && path_.back().y == robot.goals->pose.y, "the path ends at the goal");
+    expect(path_.back().x == robot.goals()[0].pose.x && path_.back().y == robot.goals()[0].pose.y,
+           "the path ends at the goal");
     expect(lidar_->scan(lidar_, robot_) != nullptr, "a scan before the first step");
   }
 
@@ -191,10 +192,10 @@ class SinkMetric final : public dmrp::Metric {
   void begin(const dmrp::MetricTrial& trial) override {
     samples_ = 0;
     of_channels_ = 0;
-    planned_ = trial.plan != nullptr;
+    planned_ = static_cast<bool>(trial.plan);
   }
   void observe(const dmrp::Sample& sample) override {
-    expect((sample.plan != nullptr) == planned_, "samples have the plan that there is");
+    expect(static_cast<bool>(sample.plan) == planned_, "samples have the plan that there is");
     expect(sample.dt_ns == (samples_ == 0 ? 0 : world()->step_ns), "dt");
     expect(sample.t_ns == samples_ * world()->step_ns, "a sample a step");
     of_channels_ += sample.people.size() + sample.calls.size() + sample.routes.size();

@@ -31,7 +31,7 @@ core::Scenario furnished_hall() {
   return scenario;
 }
 
-const dmrp_grid* ask(const WalkingGrids& grids, double resolution_m, double radius_m, int extra = 0) {
+const dmrp_grid* ask(WalkingGrids& grids, double resolution_m, double radius_m, int extra = 0) {
   const dmrp_walking_grid* const extension = grids.extension();
   return extension->grid(extension, Grown<dmrp_walking_grid_request>({0, 0, resolution_m, radius_m}, extra).get());
 }
@@ -68,6 +68,13 @@ TEST_CASE("requests out of range get no grid") {
   CHECK(ask(grids, 0.5, 0.3, -8) == nullptr);  // shorter than v1.0's
   CHECK(grids.extension()->grid(grids.extension(), nullptr) == nullptr);
   CHECK(ask(grids, 0.5, 0.0) != nullptr);
+}
+
+TEST_CASE("a request with a reserved field that is set gets no grid, even if there is one for the rest of it") {
+  WalkingGrids grids(std::make_shared<const core::StaticGeometry>(furnished_hall()));
+  REQUIRE(ask(grids, 0.5, 0.3) != nullptr);
+  const Grown<dmrp_walking_grid_request> request({0, 7, 0.5, 0.3}, 0);
+  CHECK(grids.extension()->grid(grids.extension(), request.get()) == nullptr);
 }
 
 TEST_CASE("a stored trace's world gives the grid of the trial's") {

@@ -2,6 +2,7 @@
 // PIBT: its plans are valid or it says that it gave up, and it never gets stuck where its theorem says so.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "tests/unit/planners/joint_optimum.hpp"
 #include "tests/unit/planners/large_case.hpp"
@@ -83,6 +84,26 @@ TEST_CASE("PIBT gives up after its steps or at a stop, and gives the same bits f
     if (one.status == DMRP_OK && !same_bits(one, run_planner(fresh, crowd, seed + 1))) ++differ;
   }
   CHECK(differ > 3);
+}
+
+TEST_CASE("of two robots that want the same cell PIBT lets the one go first that has waited for more steps") {
+  const int64_t step_ns = PlanningCase::step_duration_ns;
+  const auto first_at_door = [](int64_t waited_by_0_ns, int64_t waited_by_1_ns) {
+    PlanningCase c({"...", "#.#", "..."});
+    c.robot({0, 0}, {{0, 2}}).robot({2, 0}, {{2, 2}});
+    c.robots[0].waiting_ns = waited_by_0_ns;
+    c.robots[1].waiting_ns = waited_by_1_ns;
+    const Plan plan = run_planner(pibt, c);
+    REQUIRE(plan.status == DMRP_OK);
+    REQUIRE(check_plan(c, plan) == "");
+    return plan.paths[0].size() < plan.paths[1].size() ? 0 : 1;
+  };
+  CHECK(first_at_door(0, 0) == 0);
+  CHECK(first_at_door(0, step_ns) == 1);
+  CHECK(first_at_door(step_ns, 0) == 0);
+  CHECK(first_at_door(3 * step_ns, 4 * step_ns) == 1);
+  CHECK(first_at_door(0, step_ns - 1) == 0);  // less than a step is none
+  CHECK(first_at_door(step_ns, std::numeric_limits<int64_t>::max()) == 1);
 }
 
 }  // namespace pibt_test
