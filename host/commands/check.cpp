@@ -8,9 +8,7 @@
 #include "host/check/check_library.hpp"
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
-#include "host/errors/input_error.hpp"
 #include "host/plugins/library.hpp"
-#include "host/plugins/python_file.hpp"
 #include "host/program/version.hpp"
 
 namespace dmrp::host {
@@ -85,9 +83,6 @@ nlohmann::ordered_json to_json(const CheckedCase& checked) {
 }
 
 int check_command(const CheckOptions& options) {
-  if (is_python_file(options.library))
-    throw InputError(options.library +
-                     ": is a Python file: its functions are dmrp's own, and keep the contract's rules");
   const CheckChoice choice = {library_to_open(options.library), options.only, options.seed};
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   TextReport text;
