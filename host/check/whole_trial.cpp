@@ -5,11 +5,14 @@
 
 #include <array>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/files/read_file.hpp"
 #include "host/files/temporary_folder.hpp"
 #include "host/guests/probe.hpp"
+#include "host/program/executable.hpp"
 #include "host/workers/supervisor.hpp"
 
 namespace dmrp::host {
@@ -52,17 +55,6 @@ to = "right"
 people = 3
 )";
 
-// A shipped plugin of a kind.
-struct Partner {
-  const char* table;
-  const char* library;
-  const char* id;
-};
-constexpr std::array partners = {Partner{"global_planner", "libdmrp_planners.so", "dmrp.planner.sipp"},
-                                 Partner{"local_controller", "libdmrp_controllers.so", "dmrp.controller.pure_pursuit"},
-                                 Partner{"pedestrian_model", "libdmrp_pedestrians.so", "dmrp.pedestrian.social_force"},
-                                 Partner{"metric", "libdmrp_metrics.so", "dmrp.metric.success"}};
-
 const char* drive_of(const PluginInfo& plugin) {
   const auto drives = [&](std::uint32_t kinematics) { return (plugin.kinematics & (1u << kinematics)) != 0; };
   if (plugin.kind != DMRP_KIND_LOCAL_CONTROLLER || drives(DMRP_KINEMATICS_DIFFERENTIAL)) return "";
@@ -71,13 +63,18 @@ const char* drive_of(const PluginInfo& plugin) {
 }
 
 std::string experiment_with(const fs::path& file, const PluginInfo& plugin, std::uint64_t seed) {
+  constexpr std::array tables = {"global_planner", "local_controller", "pedestrian_model", "metric"};  // by kind
+  const fs::path partners_file = shared_data_path() / "layouts/check_partners.json";
+  const auto partners = nlohmann::json::parse(read_file(partners_file, partners_file.string()));
   std::string libraries = fmt::format("\"{}\"", file.string());
   std::string uses;
-  for (std::size_t kind = 0; kind < partners.size(); ++kind) {
-    const Partner& partner = partners[kind];
-    if (file.filename() != partner.library) libraries += fmt::format(", \"{}\"", partner.library);
-    const bool is_checked = plugin.kind == kind + DMRP_KIND_GLOBAL_PLANNER;
-    uses += fmt::format("[[{}]]\nuse = \"{}\"\n", partner.table, is_checked ? plugin.id : partner.id);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const auto& partner = partners.at(tables[i]);
+    const auto library = partner.at("library").get<std::string>();
+    if (file.filename() != library) libraries += fmt::format(", \"{}\"", library);
+    const bool is_checked = plugin.kind == i + DMRP_KIND_GLOBAL_PLANNER;
+    uses +=
+        fmt::format("[[{}]]\nuse = \"{}\"\n", tables[i], is_checked ? plugin.id : partner.at("use").get<std::string>());
   }
   return fmt::format(
       "[experiment]\nname = \"check\"\nseed = {}\ntrials = 1\nplugins = [{}]\n[[scenario]]\nuse = \"./room.toml\"\n{}"
