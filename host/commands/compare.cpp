@@ -96,10 +96,10 @@ void print_comparison(const RunComparison& comparison, const fs::path& before, c
   std::size_t name_width = 6;
   for (const MetricComparison& one : comparison.metrics)
     name_width = std::max(name_width, one.metric.size() + 1 + one.unit.size());
-  fmt::print("\n\n  {}  {:>6}  {:>5}  {:>9}  {:>9}  {:>28}  {:>8}\n", pad_right("metric", name_width), "pairs", "tasks",
-             "before", "after", "difference, 95 % interval", "p (Holm)");
+  fmt::print(": {}\n\n  {}  {:>6}  {:>5}  {:>9}  {:>9}  {:>28}  {:>8}\n", met_words(comparison.met),
+             pad_right("metric", name_width), "pairs", "n", "before", "after", "difference, 95 % interval", "p (Holm)");
   for (const MetricComparison& one : comparison.metrics) print_row(one, name_width);
-  fmt::print("\n");
+  fmt::print("  n: {}s, with all their trials in both runs\n\n", observation_name(comparison.met));
 }
 
 // Prints what became of the conditions, and returns the exit status.

@@ -26,7 +26,7 @@ fs::path last_run(const std::string& name) {
   }
 }
 
-// How many tasks would show the smallest effect of interest, by how those of the last run differ; "" if there is none.
+// How many observations would show the smallest effect of interest, by how those of the last run differ; "" if there is none.
 std::string power_line(const Experiment& experiment) {
   const fs::path run = last_run(experiment.name);
   if (run.empty()) return "";
@@ -34,11 +34,11 @@ std::string power_line(const Experiment& experiment) {
   const auto found =
       answers(read_summary_layout(shared_data_path() / "layouts/summary.json"), stored.metrics, stored.trials);
   if (found.empty()) return "";
-  const auto needed = tasks_needed(found.front(), experiment.smallest_effect);
+  const auto needed = observations_needed(found.front(), experiment.smallest_effect);
   if (!needed) return "";
   return fmt::format("A difference of {} in {} would show with about {} (from how pairs deviate in {})",
-                     experiment.smallest_effect, found.front().criteria.front().name, plural(*needed, "task"),
-                     run.string());
+                     experiment.smallest_effect, found.front().criteria.front().name,
+                     plural(*needed, observation_name(found.front().met)), run.string());
 }
 
 int validate_command(const std::filesystem::path& file) {

@@ -35,7 +35,7 @@ Json differences_json(const std::vector<MetricComparison>& metrics) {
   Json json = Json::array();
   for (const MetricComparison& one : metrics) {
     const core::MeanOfTasks& over_tasks = one.difference.over_tasks;
-    Json difference = {{"metric", one.metric}, {"pairs", one.pairs}, {"tasks", over_tasks.n}};
+    Json difference = {{"metric", one.metric}, {"pairs", one.pairs}, {"n", over_tasks.n}};
     if (one.pairs > 0)
       difference.update({{"before", one.before},
                          {"after", one.after},

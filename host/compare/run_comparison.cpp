@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "host/errors/input_error.hpp"
+#include "host/findings/summary.hpp"
 #include "host/report/data/report_frame.hpp"
 #include "host/report/data/report_values.hpp"
 
@@ -26,7 +27,7 @@ struct BothRuns {
   const ExperimentFacts& facts_before;
   const ExperimentFacts& facts_after;
   std::vector<TrialRecord> trials;  // without their values
-  Tasks tasks;
+  Observations observations;
 
   bool is_before(std::size_t trial) const { return trial < before.trials.size(); }
 };
@@ -39,15 +40,15 @@ std::vector<TrialRecord> keys_of(const ReportRun& before, const ReportRun& after
       TrialRecord& key = keys.emplace_back();
       std::tie(key.scenario, key.robots, key.global_planner, key.local_controller, key.pedestrian_model) =
           std::tie(trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model);
-      std::tie(key.seed, key.task, key.swept, key.outcome) =
-          std::tie(trial.seed, trial.task, trial.swept, trial.outcome);
+      std::tie(key.seed, key.task, key.task_is_drawn, key.swept, key.outcome) =
+          std::tie(trial.seed, trial.task, trial.task_is_drawn, trial.swept, trial.outcome);
     }
   return keys;
 }
 
 // The runs are the entries, in all situations or in those of one combination.
 Findings findings_of(const BothRuns& runs, const CombinationLabels* only = nullptr) {
-  return make_findings(runs.trials, runs.tasks, [&](std::size_t trial) -> std::optional<Split> {
+  return make_findings(runs.trials, runs.observations, [&](std::size_t trial) -> std::optional<Split> {
     const CombinationLabels cell = combination_of(runs.trials[trial]);
     if (only && cell != *only) return std::nullopt;
     return Split{{runs.is_before(trial) ? "before" : "after", 0, "", "", ""}, cell};
@@ -98,14 +99,14 @@ MetricComparison compare_metric(const MeasuredTwice& metric, const BothRuns& run
   result.metric = column.name;
   result.unit = column.unit;
   if (findings.entries.size() < 2) return result;
-  const JointFindings joint = joint_findings(findings, runs.tasks, std::vector<std::size_t>{0, 1}, values);
+  const JointFindings joint = joint_findings(findings, runs.observations, std::vector<std::size_t>{0, 1}, values);
   const core::Bounds bounds = bounds_of_values(metric.before.counts_failures);
   result.pairs = joint.situations;
-  result.before = core::mean_of_tasks(joint.values[0], bounds, runs.tasks.resampling).mean;
-  result.after = core::mean_of_tasks(joint.values[1], bounds, runs.tasks.resampling).mean;
+  result.before = core::mean_of_tasks(joint.values[0], bounds, runs.observations.resampling).mean;
+  result.after = core::mean_of_tasks(joint.values[1], bounds, runs.observations.resampling).mean;
   result.difference = paired_difference(joint.differences(0, 1),
                                         metric.before.counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank,
-                                        runs.tasks.resampling);
+                                        runs.observations.resampling);
   return result;
 }
 
@@ -162,18 +163,18 @@ std::vector<std::string> changes_between(const Manifest& before, const Manifest&
 RunComparison compare_runs(const ReportRun& before, const ReportRun& after, const ReportLayouts& layouts,
                            std::span<const std::string> metrics) {
   std::vector<TrialRecord> keys = keys_of(before, after);
-  const Tasks tasks = tasks_of(keys);
+  const Observations observations = observations_of(keys);
   const BothRuns runs{make_report_frame(before.metrics, before.trials),
                       make_report_frame(after.metrics, after.trials),
                       before.manifest.experiment,
                       after.manifest.experiment,
                       std::move(keys),
-                      tasks};
+                      observations};
   const Findings findings = findings_of(runs);
   RunComparison result;
   result.pairs = pairs_of(findings, result.only_before, result.only_after);
+  result.met = met_by_all(runs.trials);
   result.changes = changes_between(before.manifest, after.manifest);
-
   result.libraries = libraries_of(before.manifest, after.manifest);
 
   std::vector<MeasuredTwice> compared;

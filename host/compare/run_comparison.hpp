@@ -15,12 +15,12 @@
 namespace dmrp::host {
 
 // One metric over the trials that both runs have: the same scenario, robots, seed and labels. Differences are after -
-// before, by task.
+// before, by observation.
 struct MetricComparison {
   std::string metric;
   std::string unit;
   std::uint32_t pairs = 0;  // of trials
-  double before = 0.0;      // means over tasks
+  double before = 0.0;      // means over observations
   double after = 0.0;
   PairedDifference difference;  // p_holm: over the metrics of the comparison
 };
@@ -39,6 +39,7 @@ struct CombinationComparison {
 };
 
 struct RunComparison {
+  Met met{};  // by the trials of both
   std::uint32_t pairs = 0;
   std::uint32_t only_before = 0;  // trials without a partner
   std::uint32_t only_after = 0;

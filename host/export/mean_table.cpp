@@ -64,7 +64,11 @@ std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const
 class Values {
  public:
   Values(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials)
-      : layout_(layout), trials_(trials), values_(system_values(metrics, trials)), tasks_(tasks_of(trials)) {}
+      : layout_(layout),
+        trials_(trials),
+        values_(system_values(metrics, trials)),
+        observations_(observations_of(trials)),
+        plans_(observations_of(trials, Unit::plan)) {}
 
   bool is_share(const std::string& name) const {
     return std::find(layout_.counts_failures.begin(), layout_.counts_failures.end(), name) !=
@@ -82,8 +86,13 @@ class Values {
                                const std::string& name) const {
     const bool share = is_share(name);
     const auto value = [&](std::size_t trial) { return value_of(trial, metric, share); };
-    return core::mean_of_tasks(task_means(tasks_, trials, value), bounds_of_values(share), tasks_.resampling);
+    const bool of_plans = std::find(layout_.of_plans.begin(), layout_.of_plans.end(), name) != layout_.of_plans.end();
+    const Observations& observations = of_plans ? plans_ : observations_;
+    return core::mean_of_tasks(observation_means(observations, trials, value), bounds_of_values(share),
+                               observations.resampling);
   }
+
+  Met met_by(const std::vector<std::size_t>& trials) const { return observations_.met_by(trials); }
 
  private:
   std::optional<double> value_of(std::size_t trial, std::size_t metric, bool share) const {
@@ -94,7 +103,8 @@ class Values {
   const SummaryLayout& layout_;
   std::span<const TrialRecord> trials_;
   SystemValues values_;
-  Tasks tasks_;
+  Observations observations_;
+  Observations plans_;
 };
 
 // Rows by controller alone are means over planners: a task counts where every planner of the row has a plan, or a planner
@@ -165,13 +175,10 @@ std::string table_caption(const MeanTable& table) {
   std::string medians;
   for (const SummaryTableColumn& column : table.spec.metrics)
     if (column.median) append(medians, " and ", column.header);
-  std::uint32_t tasks = 0;
-  for (const TableRow& row : table.rows)
-    for (const TableCell& cell : row.cells) tasks = std::max(tasks, cell.tasks);
-  std::string words = table.spec.title + ": means over " + std::to_string(tasks) + (tasks == 1 ? " task" : " tasks") +
-                      (medians.empty() ? "" : ", medians of ") + medians + ".";
+  std::string words = fmt::format("{}: means over {}{}{}.", table.spec.title, met_words(table.met),
+                                  medians.empty() ? "" : ", medians of ", medians);
   if (any_cell([](const TableCell& cell) { return cell.interval.has_value(); }))
-    words += " In brackets: 95 % intervals over tasks.";
+    words += fmt::format(" In brackets: 95 % intervals over {}s.", observation_name(table.met));
   if (table.solved_alone) words += " Over the tasks for which every planner has a plan.";
   if (any_cell([](const TableCell& cell) { return cell.best; }))
     words += " Bold: with 95 % confidence better than all others of its column.";
@@ -211,8 +218,10 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
   const std::vector<BestMark> marks = best_marks(
       layout, metrics, trials, by_controller ? Contestants::planners_and_controllers : Contestants::planners);
   const Values values(layout, metrics, trials);
+  std::vector<std::size_t> all;
+  for (const auto& [place, cell] : cells) all.insert(all.end(), cell.begin(), cell.end());
 
-  MeanTable table{spec, {}, {}, {}, solved_alone};
+  MeanTable table{spec, {}, {}, {}, solved_alone, values.met_by(all)};
   for (const SummaryTableColumn& column : spec.metrics) {
     const std::string& unit = metrics[*index_of(metrics, column.metric)].unit;
     table.units.push_back(unit == "1" ? "" : unit);
@@ -234,7 +243,6 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
         const auto found = values.of(cell, metric, column.metric);
         const core::MeanOfTasks over_tasks = values.over_tasks(cell, metric, column.metric);
         shown.defined = static_cast<std::uint32_t>(found.size());
-        shown.tasks = over_tasks.n;
         if (!found.empty()) shown.value = column.median ? core::median(found) : over_tasks.mean;
         if (values.is_share(column.metric) && over_tasks.n > 1) shown.interval = over_tasks.interval;
         if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/statistics/descriptive.hpp"
+#include "host/findings/findings.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/results/trial_record.hpp"
@@ -31,10 +32,10 @@ struct TableSpec {
 };
 
 struct TableCell {
-  std::optional<double> value;  // the mean over tasks, or the trials' median by the column; none: undefined or no trial
+  std::optional<double>
+      value;  // the mean over observations, or the trials' median by the column; none: undefined or no trial
   std::optional<double> spread;
-  std::optional<core::Interval> interval;  // of the mean of a share, from two tasks on
-  std::uint32_t tasks = 0;                 // with a value
+  std::optional<core::Interval> interval;  // of the mean of a share, from two observations on
   std::uint32_t defined = 0;
   std::uint32_t trials = 0;
   bool best = false;  // best_marks.hpp
@@ -52,6 +53,7 @@ struct MeanTable {
   std::vector<std::string> spans;  // titles of `columns`; empty without
   std::vector<TableRow> rows;      // those of a group stand together
   bool solved_alone = false;       // by controller: over the tasks for which every planner of the row has a plan
+  Met met{};                       // by all trials of the table
 };
 
 MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span<const MetricColumn> metrics,

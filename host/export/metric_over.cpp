@@ -77,7 +77,7 @@ LineChart metric_over(const std::string& metric, const std::string& over, const 
   const auto index = static_cast<std::size_t>(column - metrics.begin());
   const bool counts =
       std::find(layout.counts_failures.begin(), layout.counts_failures.end(), metric) != layout.counts_failures.end();
-  const Tasks tasks = tasks_of(trials);
+  const Observations observations = observations_of(trials);
   const auto value_of = [&](std::size_t i) {
     const std::optional<double>& value = values[i][index];
     return !value && counts && trials[i].outcome == trial_outcome::fault ? std::optional(0.0) : value;
@@ -99,8 +99,8 @@ LineChart metric_over(const std::string& metric, const std::string& over, const 
   for (const auto& [parts, points] : lines) {
     ChartLine& line = chart.lines.emplace_back(ChartLine{line_name(parts, found), {}});
     for (const auto& [x, of_point] : points) {
-      const auto over_tasks =
-          core::mean_of_tasks(task_means(tasks, of_point, value_of), bounds_of_values(counts), tasks.resampling);
+      const auto over_tasks = core::mean_of_tasks(observation_means(observations, of_point, value_of),
+                                                  bounds_of_values(counts), observations.resampling);
       line.points.push_back({x, over_tasks.mean, over_tasks.interval});
     }
   }

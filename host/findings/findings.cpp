@@ -43,40 +43,50 @@ CombinationLabels combination_of(const TrialRecord& trial) {
   return {trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model};
 }
 
-Tasks tasks_of(std::span<const TrialRecord> trials) {
+Observations observations_of(std::span<const TrialRecord> trials, Unit unit) {
   using InWorld = std::pair<std::size_t, std::string>;
+  Observations found;
   std::map<std::string, std::size_t> worlds;
-  std::map<InWorld, std::size_t> repetitions;  // of a world: trials with one seed
-  std::vector<std::size_t> repetition_of;
-  std::vector<std::size_t> world_of;
-  std::vector<char> knows;  // by repetition: whether a trial of it knows its task
+  std::map<InWorld, std::size_t> crowds;  // of a world: trials with one seed
+  std::map<InWorld, std::size_t> tasks;
+  std::vector<std::size_t> world_of_crowd;
   for (const TrialRecord& trial : trials) {
     const std::size_t world = index_of(worlds, world_name(trial));
-    repetition_of.push_back(index_of(repetitions, {world, std::to_string(trial.seed)}));
-    if (repetition_of.back() == world_of.size()) world_of.push_back(world);
-    knows.resize(world_of.size());
-    if (!trial.task.empty()) knows[repetition_of.back()] = true;
+    found.crowd_of_.push_back(index_of(crowds, {world, std::to_string(trial.seed)}));
+    if (found.crowd_of_.back() == world_of_crowd.size()) world_of_crowd.push_back(world);
+    // a trial that does not know its task has that of its number of robots, or of its crowd if tasks are drawn
+    const std::string unknown = std::to_string(trial.robots) + (trial.task_is_drawn ? std::to_string(trial.seed) : "");
+    found.task_of_.push_back(index_of(tasks, {world, trial.task.empty() ? " " + unknown : trial.task}));
+    found.is_drawn_.push_back(trial.task_is_drawn);
+    found.has_people_ |= !trial.pedestrian_model.empty();
   }
-  std::vector<std::set<std::string>> known(worlds.size());  // tasks, by world
+  Joined joined(world_of_crowd.size());
+  std::map<std::size_t, std::size_t> first_with;  // the first crowd that met a task
   for (std::size_t i = 0; i < trials.size(); ++i)
-    if (!trials[i].task.empty()) known[world_of[repetition_of[i]]].insert(trials[i].task);
-  Joined joined(world_of.size());
-  std::map<InWorld, std::size_t> first_with;  // the first repetition that has a task
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    if (known[world_of[repetition_of[i]]].size() != 1 && (!trials[i].task.empty() || !knows[repetition_of[i]]))
-      joined.join(repetition_of[i],
-                  first_with.try_emplace({world_of[repetition_of[i]], trials[i].task}, repetition_of[i]).first->second);
+    if ((trials[i].task_is_drawn && !trials[i].task.empty()) || unit == Unit::plan)
+      joined.join(found.crowd_of_[i], first_with.try_emplace(found.task_of_[i], found.crowd_of_[i]).first->second);
 
-  std::vector<std::size_t> of_trial;
-  std::vector<std::uint32_t> world_of_task;
   std::map<std::size_t, std::size_t> numbers;
-  for (const std::size_t repetition : repetition_of) {
-    of_trial.push_back(index_of(numbers, joined.first_of(repetition)));
-    if (of_trial.back() == world_of_task.size())
-      world_of_task.push_back(static_cast<std::uint32_t>(world_of[repetition]));
+  for (const std::size_t crowd : found.crowd_of_) {
+    found.of_trial.push_back(index_of(numbers, joined.first_of(crowd)));
+    if (found.of_trial.back() == found.world_of.size())
+      found.world_of.push_back(static_cast<std::uint32_t>(world_of_crowd[crowd]));
   }
-  const core::Resampling resampling(world_of_task, core::Scope::these_worlds);
-  return {of_trial, world_of_task, resampling};
+  found.resampling = core::Resampling(found.world_of, core::Scope::these_worlds);
+  return found;
+}
+
+Met Observations::met_by(std::span<const std::size_t> trials) const {
+  std::set<std::size_t> tasks, drawn, crowds;
+  std::set<std::pair<std::size_t, std::size_t>> meetings;
+  for (const std::size_t trial : trials) {
+    tasks.insert(task_of_[trial]);
+    crowds.insert(crowd_of_[trial]);
+    meetings.insert({task_of_[trial], crowd_of_[trial]});
+    if (is_drawn_[trial]) drawn.insert(task_of_[trial]);
+  }
+  const auto size = [](const auto& set) { return static_cast<std::uint32_t>(set.size()); };
+  return {size(tasks), size(drawn), size(crowds), size(meetings), has_people_};
 }
 
 std::optional<Split> by_planner_and_controller(const TrialRecord& trial) {
@@ -90,7 +100,7 @@ std::optional<Split> by_planner(const TrialRecord& trial) {
   return Split{{"", 0, trial.global_planner, "", ""}, {trial.scenario, trial.robots, "", "", ""}};
 }
 
-Findings make_findings(std::span<const TrialRecord> trials, const Tasks& tasks, const SplitTrial& split) {
+Findings make_findings(std::span<const TrialRecord> trials, const Observations& observations, const SplitTrial& split) {
   Findings findings;
   std::map<CombinationLabels, std::size_t> entries;
   std::map<std::pair<CombinationLabels, std::uint64_t>, std::size_t> situations;
@@ -105,7 +115,7 @@ Findings make_findings(std::span<const TrialRecord> trials, const Tasks& tasks, 
       findings.trials.emplace_back();
     }
     if (situation == findings.situations.size())
-      findings.situations.push_back({labels->cell, trials[i].seed, tasks.of_trial[i]});
+      findings.situations.push_back({labels->cell, trials[i].seed, observations.of_trial[i]});
     auto& of_entry = findings.trials[entry];
     of_entry.resize(std::max(of_entry.size(), situation + 1));
     of_entry[situation].push_back(i);
@@ -134,10 +144,10 @@ std::vector<double> JointFindings::differences(std::size_t a, std::size_t b) con
   return found;
 }
 
-JointFindings joint_findings(const Findings& findings, const Tasks& tasks, std::span<const std::size_t> members,
-                             const JointValues& values) {
+JointFindings joint_findings(const Findings& findings, const Observations& observations,
+                             std::span<const std::size_t> members, const JointValues& values) {
   std::vector<std::vector<std::vector<double>>> found(members.size());  // [member][task]
-  for (auto& of_member : found) of_member.resize(tasks.world_of.size());
+  for (auto& of_member : found) of_member.resize(observations.world_of.size());
   JointFindings joint;
   for (std::size_t i = 0; i < findings.situations.size(); ++i) {
     std::vector<std::span<const std::size_t>> trials;
@@ -148,7 +158,7 @@ JointFindings joint_findings(const Findings& findings, const Tasks& tasks, std::
     if (!of_situation) continue;
     ++joint.situations;
     for (std::size_t member = 0; member < members.size(); ++member)
-      found[member][findings.situations[i].task].push_back((*of_situation)[member]);
+      found[member][findings.situations[i].observation].push_back((*of_situation)[member]);
   }
   for (const auto& of_member : found) {
     std::vector<double>& means = joint.values.emplace_back();
@@ -157,10 +167,11 @@ JointFindings joint_findings(const Findings& findings, const Tasks& tasks, std::
   return joint;
 }
 
-std::vector<double> task_means(const Tasks& tasks, std::span<const std::size_t> trials, const TrialValue& value) {
-  std::vector<std::vector<double>> by_task(tasks.world_of.size());
+std::vector<double> observation_means(const Observations& observations, std::span<const std::size_t> trials,
+                                      const TrialValue& value) {
+  std::vector<std::vector<double>> by_task(observations.world_of.size());
   for (const std::size_t trial : trials)
-    if (const auto found = value(trial)) by_task[tasks.of_trial[trial]].push_back(*found);
+    if (const auto found = value(trial)) by_task[observations.of_trial[trial]].push_back(*found);
   std::vector<double> means;
   for (const std::vector<double>& values : by_task) means.push_back(core::mean(values));
   return means;

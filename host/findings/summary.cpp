@@ -11,23 +11,27 @@ namespace dmrp::host {
 namespace {
 
 MetricSummary summarise_metric(std::size_t metric, bool counts_failures, std::span<const std::size_t> of_group,
-                               std::span<const TrialRecord> trials, const SystemValues& system, const Tasks& tasks) {
+                               std::span<const TrialRecord> trials, const SystemValues& system,
+                               const Observations& observations) {
   const auto value_of = [&](std::size_t trial) {
     const std::optional<double>& value = system[trial][metric];
     return !value && counts_failures && trials[trial].outcome == trial_outcome::fault ? std::optional(0.0) : value;
   };
   std::vector<double> values;
+  std::vector<std::size_t> with_value;
   std::vector<double> values_of_successful;
   for (const std::size_t trial : of_group) {
     const std::optional<double> value = value_of(trial);
     if (!value) continue;
     values.push_back(*value);
+    with_value.push_back(trial);
     if (counts_failures || trials[trial].outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
   }
-  const core::MeanOfTasks over_tasks =
-      core::mean_of_tasks(task_means(tasks, of_group, value_of), bounds_of_values(counts_failures), tasks.resampling);
+  const core::MeanOfTasks over_tasks = core::mean_of_tasks(observation_means(observations, of_group, value_of),
+                                                           bounds_of_values(counts_failures), observations.resampling);
   MetricSummary summary;
-  summary.tasks = over_tasks.n;
+  summary.n = over_tasks.n;
+  summary.met = observations.met_by(with_value);
   summary.defined = static_cast<std::uint32_t>(values.size());
   summary.mean = over_tasks.mean;
   summary.sd = core::sample_sd(values);
@@ -40,12 +44,7 @@ MetricSummary summarise_metric(std::size_t metric, bool counts_failures, std::sp
 }  // namespace
 
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
-                                          std::span<const std::string> counts_failures) {
-  return summarise(metrics, trials, counts_failures, combination_of);
-}
-
-std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
-                                          std::span<const std::string> counts_failures,
+                                          const MetricKinds& kinds,
                                           CombinationLabels (*labels_of)(const TrialRecord&)) {
   std::vector<CombinationSummary> summaries;
   std::vector<std::vector<std::size_t>> groups;  // of each summary: indices of trials
@@ -65,14 +64,25 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
     groups[index].push_back(i);
   }
   const SystemValues system = system_values(metrics, trials);
-  const Tasks tasks = tasks_of(trials);
+  const Observations observations = observations_of(trials);
+  const Observations plans = observations_of(trials, Unit::plan);
+  const auto is_one_of = [](std::span<const std::string> names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   for (std::size_t i = 0; i < summaries.size(); ++i)
     for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
-      const bool counts =
-          std::find(counts_failures.begin(), counts_failures.end(), metrics[metric].name) != counts_failures.end();
-      summaries[i].metrics.push_back(summarise_metric(metric, counts, groups[i], trials, system, tasks));
+      const std::string& name = metrics[metric].name;
+      summaries[i].metrics.push_back(summarise_metric(metric, is_one_of(kinds.counts_failures, name), groups[i], trials,
+                                                      system, is_one_of(kinds.of_plans, name) ? plans : observations));
     }
   return summaries;
+}
+
+Met met_by_all(std::span<const TrialRecord> trials) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (has_result(trials[i])) all.push_back(i);
+  return observations_of(trials).met_by(all);
 }
 
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries) {
@@ -81,8 +91,8 @@ std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const C
     csv.field(name);
   const std::vector<std::string> swept = swept_columns(summaries);
   for (const std::string& name : swept) csv.field(name);
-  for (const char* name : {"metric", "unit", "n", "n_defined", "mean", "sd", "median", "ci_low", "ci_high",
-                           "paper_mean", "paper_n", "paper_trimmed_all_nonzero", "trials"})
+  for (const char* name : {"metric", "unit", "tasks", "crowds", "n", "n_defined", "mean", "sd", "median", "ci_low",
+                           "ci_high", "paper_mean", "paper_n", "paper_trimmed_all_nonzero", "trials"})
     csv.field(name);
   csv.end_line();
 
@@ -93,7 +103,8 @@ std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const C
       csv.field(combination.scenario).field(combination.robots).field(combination.global_planner);
       csv.field(combination.local_controller).field(combination.pedestrian_model);
       for (const std::string& name : swept) csv.field(swept_value(summary.swept, name));
-      csv.field(metrics[i].name).field(metrics[i].unit).field(metric.tasks).field(metric.defined);
+      csv.field(metrics[i].name).field(metrics[i].unit).field(metric.met.tasks).field(metric.met.crowds);
+      csv.field(metric.n).field(metric.defined);
       csv.field(metric.mean).field(metric.sd).field(metric.median);
       csv.field(metric.interval.low).field(metric.interval.high);
       csv.field(metric.paper.mean).field(metric.paper.count).field(metric.paper.trimmed_all_nonzero ? 1 : 0);

@@ -15,9 +15,10 @@ namespace dmrp::host {
 
 // One metric's system values over the trials of a combination. NaN where undefined.
 struct MetricSummary {
-  std::uint32_t tasks = 0;    // with a value: the observations
-  std::uint32_t defined = 0;  // trials with a value
-  double mean = 0.0;          // of the tasks' means
+  std::uint32_t n = 0;        // observations with a value
+  Met met{};                  // by the trials with a value
+  std::uint32_t defined = 0;  // those trials
+  double mean = 0.0;          // of the observations' means
   double sd = 0.0;            // over trials
   double median = 0.0;        // likewise
   core::Interval interval{};  // 95 %, of the mean
@@ -31,15 +32,20 @@ struct CombinationSummary {
   std::vector<SweptValue> swept{};     // of its trials
 };
 
-// In order of first appearance. `trials` are ordered by id. `counts_failures`: metrics that count failures, which are
-// shares of robots (SummaryLayout).
-std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
-                                          std::span<const std::string> counts_failures);
+// Kinds of metrics, by name (SummaryLayout): those that count failures are shares of robots; those of plans depend on the
+// plan alone.
+struct MetricKinds {
+  std::span<const std::string> counts_failures{};
+  std::span<const std::string> of_plans{};
+};
 
-// The same for groups of trials with equal `labels_of`.
+// Of groups of trials with equal `labels_of`, in order of first appearance. `trials` are ordered by id.
 std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials,
-                                          std::span<const std::string> counts_failures,
-                                          CombinationLabels (*labels_of)(const TrialRecord&));
+                                          const MetricKinds& kinds,
+                                          CombinationLabels (*labels_of)(const TrialRecord&) = combination_of);
+
+// What all these trials have met.
+Met met_by_all(std::span<const TrialRecord> trials);
 
 // summary.csv: one line for each combination and metric.
 std::string summary_csv(std::span<const MetricColumn> metrics, std::span<const CombinationSummary> summaries);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -30,14 +31,26 @@ std::vector<std::size_t> entries_of_all_cells(const Findings& findings) {
 // The answer about some trials while it is made.
 class Contest {
  public:
-  Contest(const Measures& measures, const Tasks& tasks, Findings findings)
-      : measures_(measures), tasks_(tasks), findings_(std::move(findings)), order_(entries_of_all_cells(findings_)) {}
+  Contest(const Measures& measures, const Observations& observations, Findings findings)
+      : measures_(measures), observations_(observations), findings_(std::move(findings)) {
+    for (const std::size_t entry : entries_of_all_cells(findings_)) {
+      const auto same = std::find_if(order_.begin(), order_.end(), [&](std::size_t other) {
+        return findings_.entries[other].local_controller == findings_.entries[entry].local_controller &&
+               measures_.are_same(findings_.trials[other], findings_.trials[entry]);
+      });
+      if (same == order_.end())
+        order_.push_back(entry);
+      else
+        same_as_[*same].push_back(findings_.entries[entry].global_planner);
+    }
+  }
 
   bool has_rivals() const { return order_.size() > 1; }
 
   Answer answer() {
     Answer answer;
     describe(answer);
+    add_factors(answer);
     std::vector<RankedCombination> all;
     for (const std::size_t entry : order_) all.push_back(ranked(entry));
     find_best(answer, all);
@@ -64,32 +77,68 @@ class Contest {
 
  private:
   void describe(Answer& answer) const {
-    std::set<std::size_t> tasks;
+    std::set<std::size_t> met;
     std::set<std::size_t> worlds;
     for (const Situation& situation : findings_.situations) {
       if (std::find(answer.cells.begin(), answer.cells.end(), situation.cell) == answer.cells.end())
         answer.cells.push_back(situation.cell);
-      tasks.insert(situation.task);
-      worlds.insert(tasks_.world_of[situation.task]);
+      met.insert(situation.observation);
+      worlds.insert(observations_.world_of[situation.observation]);
     }
-    answer.tasks = static_cast<std::uint32_t>(tasks.size());
+    std::vector<std::size_t> trials;
+    for (const std::size_t entry : order_)
+      for (const auto& of_situation : findings_.trials[entry])
+        trials.insert(trials.end(), of_situation.begin(), of_situation.end());
+    answer.met = observations_.met_by(trials);
+    answer.n = static_cast<std::uint32_t>(met.size());
     answer.worlds = static_cast<std::uint32_t>(worlds.size());
     answer.in_general = answer.worlds >= core::fewest_worlds_in_general;
     answer.criteria = measures_.criteria();
     answer.siblings = measures_.siblings();
   }
 
+  // Main effects in the first criterion, where entries are a product.
+  void add_factors(Answer& answer) const {
+    std::vector<std::string> planners, controllers;
+    const auto place_in = [](std::vector<std::string>& names, const std::string& name) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) return names.push_back(name), names.size() - 1;
+      return static_cast<std::size_t>(found - names.begin());
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> places;  // of entries
+    const std::vector<std::size_t> all = entries_of_all_cells(findings_);
+    for (const std::size_t entry : all)
+      places.emplace_back(place_in(planners, findings_.entries[entry].global_planner),
+                          place_in(controllers, findings_.entries[entry].local_controller));
+    if (planners.size() < 2 || controllers.size() < 2 || all.size() < planners.size() * controllers.size()) return;
+    const auto values = joint_findings(findings_, observations_, all, measures_.joint(answer.criteria.front())).values;
+    const auto add = [&](const char* factor, const char* other, const auto& levels, std::size_t others, auto place_of) {
+      std::vector<std::vector<double>> means(levels.size(), std::vector<double>(values.front().size()));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t k = 0; k < values[i].size(); ++k)
+          means[place_of(places[i])][k] += values[i][k] / static_cast<double>(others);
+      answer.factors.emplace_back(FactorEffects{factor, other, others, levels, core::level_effects(means)});
+      if (answer.factors.back().effects.empty()) answer.factors.pop_back();
+    };
+    add("controller", "planner", controllers, planners.size(), [](const auto& place) { return place.second; });
+    // twenty crowds that meet one plan say nothing of planners
+    if (answer.met.tasks > 1)
+      add("planner", "controller", planners, controllers.size(), [](const auto& place) { return place.first; });
+  }
+
   RankedCombination ranked(std::size_t entry) const {
     RankedCombination result;
     result.global_planner = findings_.entries[entry].global_planner;
     result.local_controller = findings_.entries[entry].local_controller;
+    if (const auto same = same_as_.find(entry); same != same_as_.end()) result.same_as = same->second;
     std::vector<std::size_t> trials;
     for (const auto& of_situation : findings_.trials[entry])
       trials.insert(trials.end(), of_situation.begin(), of_situation.end());
     result.trials = static_cast<std::uint32_t>(trials.size());
     const auto over_tasks = [&](const Criterion& one) {
       const auto value = [&](std::size_t trial) { return measures_.value(trial, one); };
-      return core::mean_of_tasks(task_means(tasks_, trials, value), bounds_of_values(one.share()), tasks_.resampling);
+      return core::mean_of_tasks(observation_means(observations_, trials, value), bounds_of_values(one.share()),
+                                 observations_.resampling);
     };
     for (const Criterion& one : measures_.criteria()) {
       const core::MeanOfTasks found = over_tasks(one);
@@ -102,15 +151,15 @@ class Contest {
 
   // By task: of one entry minus of another.
   std::vector<double> differences(std::size_t a, std::size_t b, const Criterion& criterion) const {
-    return joint_findings(findings_, tasks_, std::vector{a, b}, measures_.joint(criterion)).differences(0, 1);
+    return joint_findings(findings_, observations_, std::vector{a, b}, measures_.joint(criterion)).differences(0, 1);
   }
 
   void compare_with_first(Answer& answer) const {
     for (std::size_t i = 1; i < order_.size(); ++i)
       for (const Criterion& criterion : answer.criteria)
-        answer.ranking[i].against.push_back(
-            paired_difference(differences(order_.front(), order_[i], criterion),
-                              criterion.share() ? PairedTest::sign_flip : PairedTest::signed_rank, tasks_.resampling));
+        answer.ranking[i].against.push_back(paired_difference(
+            differences(order_.front(), order_[i], criterion),
+            criterion.share() ? PairedTest::sign_flip : PairedTest::signed_rank, observations_.resampling));
   }
 
   core::BestSet best_set(const core::Resampling& resampling) const {
@@ -127,13 +176,13 @@ class Contest {
   }
 
   void find_best(const Answer& answer, std::vector<RankedCombination>& all) const {
-    const core::BestSet best = best_set(tasks_.resampling);
+    const core::BestSet best = best_set(observations_.resampling);
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].standing = best.excluded[i] ? Standing::worse : Standing::may_be_best;
       if (best.excluded[i]) all[i].decided = best.excluded[i]->criterion;
     }
     if (!answer.in_general) return;
-    const core::BestSet general = best_set({tasks_.world_of, core::Scope::in_general});
+    const core::BestSet general = best_set({observations_.world_of, core::Scope::in_general});
     for (std::size_t i = 0; i < all.size(); ++i) all[i].best_in_general = !general.excluded[i];
   }
 
@@ -164,9 +213,10 @@ class Contest {
   }
 
   const Measures& measures_;
-  const Tasks& tasks_;
+  const Observations& observations_;
   Findings findings_;
-  std::vector<std::size_t> order_;  // entries
+  std::vector<std::size_t> order_;  // entries, one of those that did the same in every trial
+  std::map<std::size_t, std::vector<std::string>> same_as_;
 };
 
 }  // namespace
@@ -175,7 +225,7 @@ std::string combination_name(const RankedCombination& one) {
   return one.global_planner + " + " + one.local_controller;
 }
 
-std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference) {
+std::optional<std::uint64_t> observations_needed(const Answer& answer, double difference) {
   return core::pairs_needed(answer.deviation, difference, significant / static_cast<double>(answer.criteria.size()));
 }
 
@@ -183,14 +233,15 @@ std::vector<Answer> answers(const SummaryLayout& layout, std::span<const MetricC
                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
   if (measures.criteria().empty()) return {};
-  const Tasks tasks = tasks_of(trials);
+  const Observations observations = observations_of(trials);
   std::vector<CombinationLabels> cells;
   for (const TrialRecord& trial : trials)
     if (const auto split = by_planner_and_controller(trial);
         split && has_result(trial) && std::find(cells.begin(), cells.end(), split->cell) == cells.end())
       cells.push_back(split->cell);
   const auto answer_of = [&](const std::function<bool(const CombinationLabels&)>& included) -> std::optional<Answer> {
-    Contest contest(measures, tasks, make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {
+    Contest contest(measures, observations,
+                    make_findings(trials, observations, [&](std::size_t i) -> std::optional<Split> {
                       const std::optional<Split> split = by_planner_and_controller(trials[i]);
                       return split && included(split->cell) ? split : std::nullopt;
                     }));

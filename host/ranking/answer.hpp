@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/statistics/level_effects.hpp"
 #include "host/ranking/measures.hpp"
 #include "host/ranking/paired_difference.hpp"
 #include "host/results/summary_layout.hpp"
@@ -28,6 +29,7 @@ struct RankedCombination {
   std::vector<double> means;              // by criterion; NaN: undefined
   std::vector<core::Interval> intervals;  // of the means
   std::vector<double> sibling_means;      // by sibling of the first criterion
+  std::vector<std::string> same_as{};     // planners whose trials with this controller are the same, to the bit
   std::vector<PairedDifference> against;  // by criterion: its values minus the first's; empty for the first
   Standing standing = Standing::first;
   std::optional<std::size_t> decided;  // of a worse one: the criterion that tells
@@ -42,16 +44,28 @@ struct OrderFlip {
   std::size_t behind = 0;  // has the higher mean in the sibling
 };
 
+// A factor of a product of planners and controllers, over all of the other.
+struct FactorEffects {
+  const char* factor;  // "controller"
+  const char* other;   // "planner"
+  std::size_t others = 0;
+  std::vector<std::string> levels;
+  std::vector<core::LevelEffect> effects;  // likewise: from the mean of the other levels
+};
+
 // Over the trials of one scenario, number of robots and pedestrian model, or of several.
 struct Answer {
   std::vector<CombinationLabels> cells;
-  std::uint32_t tasks = 0;   // the observations
+  Met met{};                 // what the trials have met
+  std::uint32_t n = 0;       // observations
   std::uint32_t worlds = 0;  // their blocks
   bool in_general = false;   // worlds are observations, too: there are enough of them
   std::vector<Criterion> criteria;
   std::vector<RankedCombination> ranking;  // those that may be the best first, then by the criteria
   std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
   std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
+
+  std::vector<FactorEffects> factors;  // of planners and of controllers, if each planner has each controller
 
   // With several pedestrian models, by model: names of those that may be the best (combination_name()).
   struct WithPeople {
@@ -69,8 +83,8 @@ inline constexpr std::uint32_t least_for_deviation = 10;
 // "CBS + DWA"
 std::string combination_name(const RankedCombination& one);
 
-// Tasks that would show this difference in the first criterion with a probability of 80 %; none where nothing deviates.
-std::optional<std::uint64_t> tasks_needed(const Answer& answer, double difference);
+// Observations that would show this difference in the first criterion with a probability of 80 %; none where nothing deviates.
+std::optional<std::uint64_t> observations_needed(const Answer& answer, double difference);
 
 // Mean differences that decide nothing: then the next criterion may tell.
 inline constexpr double tolerated_share = 0.05;

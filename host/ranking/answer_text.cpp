@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace dmrp::host {
@@ -33,6 +34,15 @@ std::string means_words(const Answer& answer, const RankedCombination& one) {
   return words;
 }
 
+// "0.11 [0.05, 0.17] below the others": from the mean of the other levels.
+std::string effect_words(const core::LevelEffect& effect) {
+  const bool below = effect.mean < 0.0;
+  const double low = below ? -effect.interval.high : effect.interval.low;
+  const double high = below ? -effect.interval.low : effect.interval.high;
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}] {} the others", std::fabs(effect.mean), low, high,
+                     below ? "below" : "above");
+}
+
 // "A, B, C and 4 more"
 std::string list_words(const std::vector<std::string>& names) {
   std::string words;
@@ -45,16 +55,21 @@ std::string list_words(const std::vector<std::string>& names) {
 }
 
 bool is_equal_to_first(const RankedCombination& one) {
-  return !one.against.empty() && std::all_of(one.against.begin(), one.against.end(), [](const auto& against) {
-    return against.over_tasks.n > 0 && against.equal;
-  });
+  return std::all_of(one.against.begin(), one.against.end(),
+                     [](const auto& against) { return against.over_tasks.n > 0 && against.equal; });
+}
+
+// With the planners that did the same in every trial.
+std::string shown_name(const RankedCombination& one) {
+  return one.same_as.empty()
+             ? combination_name(one)
+             : fmt::format("{} (and {}, the same in every trial)", combination_name(one), list_words(one.same_as));
 }
 
 std::vector<std::string> names_of(const Answer& answer, bool (*holds)(const RankedCombination&)) {
   std::vector<std::string> names;
   for (const RankedCombination& one : answer.ranking)
-    if (holds(one))
-      names.push_back(combination_name(one) + (is_equal_to_first(one) ? " (as the first in every trial)" : ""));
+    if (holds(one)) names.push_back(shown_name(one));
   return names;
 }
 
@@ -62,16 +77,57 @@ bool may_be_best(const RankedCombination& one) {
   return one.standing != Standing::worse;
 }
 
+// "Controllers, each with all 4 planners: in safe success, DWA 0.11 [0.05, 0.17] below the others."
+std::string factor_line(const Answer& answer, const FactorEffects& factor) {
+  const std::string heading =
+      fmt::format("{}{}s, each with all {} {}s: ", static_cast<char>(std::toupper(*factor.factor)), factor.factor + 1,
+                  factor.others, factor.other);
+  const std::string& by = answer.criteria.front().name;
+  std::vector<std::string> words;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < factor.levels.size(); ++i) {
+    const core::LevelEffect& effect = factor.effects[i];
+    if (std::fabs(effect.mean) > std::fabs(factor.effects[largest].mean)) largest = i;
+    if (effect.interval.low > 0.0 || effect.interval.high < 0.0)
+      words.push_back(fmt::format("{} {}", factor.levels[i], effect_words(effect)));
+  }
+  if (!words.empty()) return fmt::format("{}in {}, {}.", heading, by, list_words(words));
+  if (factor.effects[largest].mean == 0.0) return heading + "the same " + by + " in every trial.";
+  return fmt::format("{}no significant difference in {} (the largest: {} {}).", heading, by, factor.levels[largest],
+                     effect_words(factor.effects[largest]));
+}
+
+// "A difference of 5 points in safe success"
+std::string tolerated_words(const Answer& answer) {
+  return fmt::format("a difference of 5 points in {}", answer.criteria.front().name);
+}
+
+// Where plans are compared on one task, twenty crowds meet one plan of each.
+std::string one_task_line(const Answer& answer) {
+  const bool one_planner = std::all_of(answer.ranking.begin(), answer.ranking.end(), [&](const RankedCombination& one) {
+    return one.global_planner == answer.ranking.front().global_planner;
+  });
+  return answer.met.tasks == 1 && !one_planner ? "These trials cannot compare planners: all have the same task." : "";
+}
+
 std::string best_line(const Answer& answer) {
   const RankedCombination& first = answer.ranking.front();
   const std::string means = means_words(answer, first);
-  if (answer.tasks < fewest_tasks)
-    return fmt::format("First: {}: {}. Fewer than {} tasks tell nothing apart.", combination_name(first), means,
-                       fewest_tasks);
+  const std::string unit = observation_name(answer.met);
+  const std::string leads = fmt::format("Best so far: {}: {}.", shown_name(first), means);
+  if (answer.n < fewest_observations)
+    return fmt::format("{} {} too few to rank anything. {}", counted(answer.n, unit), answer.n == 1 ? "is" : "are",
+                       leads);
   const std::vector<std::string> best = names_of(answer, may_be_best);
   if (best.size() == 1) return fmt::format("With 95 % confidence {} is the best of these: {}.", best.front(), means);
-  return fmt::format("With 95 % confidence the best of these is among {}. First: {}: {}.", list_words(best),
-                     combination_name(first), means);
+  if (best.size() < answer.ranking.size())
+    return fmt::format("With 95 % confidence the best of these is among {}. {}", list_words(best), leads);
+  if (std::all_of(answer.ranking.begin(), answer.ranking.end(), is_equal_to_first))
+    return fmt::format("All {} are equal in every trial: {}.", best.size(), means);
+  const auto needed = observations_needed(answer, tolerated_share);
+  const std::string more =
+      needed ? fmt::format(" For {} about {} are needed.", tolerated_words(answer), counted(*needed, unit)) : "";
+  return fmt::format("{} exclude none of the {}.{} {}", counted(answer.n, unit), best.size(), more, leads);
 }
 
 // Over worlds, where there are enough of them for a claim about others.
@@ -146,17 +202,6 @@ std::string flip_line(const Answer& answer) {
   return fmt::format("The order depends on whose fault contacts are: {}.", list_words(pairs));
 }
 
-// Whether these tasks leave room for differences; "" where they do, or where there are too few to say.
-std::string tasks_line(const Answer& answer) {
-  constexpr double least_mean_share = 0.3;
-  constexpr double most_mean_share = 0.9;
-  double mean = 0.0;
-  for (const RankedCombination& one : answer.ranking) mean += one.means[0] / static_cast<double>(answer.ranking.size());
-  if (answer.tasks < least_for_deviation || (mean >= least_mean_share && mean <= most_mean_share)) return "";
-  return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
-                     mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
-}
-
 }  // namespace
 
 std::string difference_words(const Answer& answer, const RankedCombination& one, std::size_t criterion) {
@@ -169,9 +214,10 @@ std::string difference_words(const Answer& answer, const RankedCombination& one,
 }
 
 std::string answer_heading(const Answer& answer) {
-  return fmt::format("In {}, over {}",
-                     answer.worlds == 1 ? "this world" : fmt::format("these {} worlds", answer.worlds),
-                     counted(answer.tasks, "task"));
+  std::string words = met_words(answer.met);
+  words.front() = static_cast<char>(std::toupper(words.front()));
+  if (answer.met.tasks == 1) return words + " (the same starts and goals in every trial)";
+  return words + (answer.worlds == 1 ? " in this world" : fmt::format(" in these {} worlds", answer.worlds));
 }
 
 std::vector<std::string> answer_lines(const Answer& answer, std::span<const CombinationFailures> failures) {
@@ -179,6 +225,8 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   const auto add = [&](std::string line) {
     if (!line.empty()) lines.push_back(std::move(line));
   };
+  add(one_task_line(answer));
+  for (const FactorEffects& factor : answer.factors) add(factor_line(answer, factor));
   add(best_line(answer));
   if (answer.in_general) add(general_line(answer));
   add(people_line(answer));
@@ -188,10 +236,10 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   if (worse != answer.ranking.rend()) add(cause_line(answer, *worse, failures));
   add(pareto_line(answer));
   if (!answer.flips.empty()) add(flip_line(answer));
-  add(tasks_line(answer));
-  if (const auto needed = tasks_needed(answer, tolerated_share))
-    add(fmt::format("A difference of 5 points in {} would show with about {} (from how the pairs deviate).",
-                    answer.criteria.front().name, counted(*needed, "task")));
+  const bool all_may = std::all_of(answer.ranking.begin(), answer.ranking.end(), may_be_best);
+  if (const auto needed = observations_needed(answer, tolerated_share); needed && !all_may)
+    add(fmt::format("For {} about {} are needed.", tolerated_words(answer),
+                    counted(*needed, observation_name(answer.met))));
   return lines;
 }
 

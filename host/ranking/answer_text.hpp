@@ -10,7 +10,7 @@
 
 namespace dmrp::host {
 
-// "On this task, 20 crowd seeds": what the answer is about.
+// "One task, 20 crowds (the same starts and goals in every trial)": what the answer is about.
 std::string answer_heading(const Answer& answer);
 
 // The best, the worst, why the worst fail, and what the trials cannot tell: one sentence each. `failures`: of all

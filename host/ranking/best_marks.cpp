@@ -23,22 +23,25 @@ class Marker {
         metrics_(metrics),
         trials_(trials),
         values_(system_values(metrics, trials)),
-        tasks_(tasks_of(trials)) {}
+        observations_(observations_of(trials)),
+        plans_(observations_of(trials, Unit::plan)) {}
 
-  const Tasks& tasks() const { return tasks_; }
+  const Observations& observations() const { return observations_; }
+  const Observations& plans() const { return plans_; }
+  bool is_of_plans(std::size_t metric) const { return contains(layout_.of_plans, metrics_[metric].name); }
 
   // The entry that is the best in a metric; none if it cannot be told apart from another.
   std::optional<std::size_t> best(const Findings& findings, std::size_t metric) const {
     const MetricColumn& column = metrics_[metric];
     if (column.direction == DMRP_DIRECTION_NONE || column.wall_clock) return std::nullopt;
-    const bool of_driving = !contains(layout_.counts_failures, column.name) && !contains(layout_.of_plans, column.name);
+    const bool of_driving = !contains(layout_.counts_failures, column.name) && !is_of_plans(metric);
     if (of_driving && !same_success(findings)) return std::nullopt;
     const bool share = contains(layout_.counts_failures, column.name);
     const JointFindings table = joint(findings, metric);
     const std::vector<core::Criterion> criteria{
         {core::differences_of(table.values), column.direction == DMRP_DIRECTION_HIGHER,
          share ? core::PairedScore::mean : core::PairedScore::ranks, 0.0, bounds_of_values(share)}};
-    const auto excluded = core::best_set(findings.entries.size(), criteria, tasks_.resampling).excluded;
+    const auto excluded = core::best_set(findings.entries.size(), criteria, of(metric).resampling).excluded;
     if (excluded.size() < 2 || std::count(excluded.begin(), excluded.end(), std::nullopt) != 1) return std::nullopt;
     return static_cast<std::size_t>(std::find(excluded.begin(), excluded.end(), std::nullopt) - excluded.begin());
   }
@@ -48,12 +51,14 @@ class Marker {
     std::vector<std::size_t> all(findings.entries.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const bool counts = contains(layout_.counts_failures, metrics_[metric].name);
-    return joint_findings(findings, tasks_, all, means_of([&](std::size_t trial) {
+    return joint_findings(findings, of(metric), all, means_of([&](std::size_t trial) {
                             if (values_[trial][metric]) return values_[trial][metric];
                             return counts && trials_[trial].outcome == trial_outcome::fault ? std::optional(0.0)
                                                                                             : std::nullopt;
                           }));
   }
+
+  const Observations& of(std::size_t metric) const { return is_of_plans(metric) ? plans_ : observations_; }
 
   // A robot that fails drives less.
   bool same_success(const Findings& findings) const {
@@ -72,7 +77,8 @@ class Marker {
   std::span<const MetricColumn> metrics_;
   std::span<const TrialRecord> trials_;
   SystemValues values_;
-  Tasks tasks_;
+  Observations observations_;
+  Observations plans_;
 };
 
 }  // namespace
@@ -87,17 +93,21 @@ std::vector<BestMark> best_marks(const SummaryLayout& layout, std::span<const Me
       cells.push_back(split->cell);
   std::vector<BestMark> marks;
   for (const CombinationLabels& cell : cells) {
-    const Findings findings = make_findings(trials, marker.tasks(), [&](std::size_t i) {
+    const auto split = [&](std::size_t i) {
       const auto split = split_of(trials[i]);
       return split && split->cell == cell ? split : std::nullopt;
-    });
-    for (std::size_t metric = 0; metric < metrics.size(); ++metric)
+    };
+    const Findings of_trials = make_findings(trials, marker.observations(), split);
+    const Findings of_plans = make_findings(trials, marker.plans(), split);
+    for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
+      const Findings& findings = marker.is_of_plans(metric) ? of_plans : of_trials;
       if (const auto best = marker.best(findings, metric)) {
         CombinationLabels labels = cell;
         labels.global_planner = findings.entries[*best].global_planner;
         labels.local_controller = findings.entries[*best].local_controller;
         marks.push_back({labels, metrics[metric].name});
       }
+    }
   }
   return marks;
 }

@@ -17,16 +17,17 @@ namespace dmrp::host {
 namespace {
 
 // Of the bounds and a controller, by task.
-std::vector<BoundedValue> observations(const Findings& findings, const Tasks& tasks, const Bounds& bounds,
-                                       const std::string& controller, const JointValues& values) {
+std::vector<BoundedValue> bounded_values(const Findings& findings, const Observations& observations,
+                                         const Bounds& bounds, const std::string& controller,
+                                         const JointValues& values) {
   std::vector<std::size_t> members;
   for (const std::string& name : {bounds.lower, bounds.upper, controller})
     for (std::size_t i = 0; i < findings.entries.size(); ++i)
       if (findings.entries[i].local_controller == name) members.push_back(i);
   if (members.size() < 3) return {};
-  const JointFindings joint = joint_findings(findings, tasks, members, values);
+  const JointFindings joint = joint_findings(findings, observations, members, values);
   std::vector<BoundedValue> found;
-  for (std::size_t task = 0; task < tasks.world_of.size(); ++task)
+  for (std::size_t task = 0; task < observations.world_of.size(); ++task)
     if (!std::isnan(joint.values[0][task]))
       found.push_back({joint.values[0][task], joint.values[1][task], joint.values[2][task]});
   return found;
@@ -34,7 +35,7 @@ std::vector<BoundedValue> observations(const Findings& findings, const Tasks& ta
 
 MetricSummary summary_of(const Place& place, std::uint32_t trials) {
   MetricSummary summary;
-  summary.tasks = place.observations;
+  summary.n = place.observations;
   summary.defined = std::isnan(place.place) ? 0 : trials;
   summary.mean = place.place;
   summary.sd = core::undefined;
@@ -106,20 +107,21 @@ void add_places(const Bounds& bounds, const SummaryLayout& layout, std::span<con
   for (const Column& column : columns)
     metrics.push_back({column.name, "1", DMRP_DIRECTION_HIGHER, false,
                        fmt::format("from {} (0) to {} (1) in {}", bounds.lower, bounds.upper, column.words), true});
-  const Tasks tasks = tasks_of(trials);
+  const Observations observations = observations_of(trials);
   for (CombinationSummary& summary : summaries) {
     const CombinationLabels& labels = summary.combination;
-    const Findings findings = make_findings(trials, tasks, [&](std::size_t i) -> std::optional<Split> {
+    const Findings findings = make_findings(trials, observations, [&](std::size_t i) -> std::optional<Split> {
       CombinationLabels other = combination_of(trials[i]);
       other.local_controller = labels.local_controller;
       return other == labels ? by_planner_and_controller(trials[i]) : std::nullopt;
     });
     const bool is_bound = labels.local_controller == bounds.lower || labels.local_controller == bounds.upper;
     for (const Column& column : columns) {
-      const Place place = is_bound ? Place{}
-                                   : place_between(observations(findings, tasks, bounds, labels.local_controller,
-                                                                measures.joint(column.criterion)),
-                                                   column.criterion.share());
+      const Place place = is_bound
+                              ? Place{}
+                              : place_between(bounded_values(findings, observations, bounds, labels.local_controller,
+                                                             measures.joint(column.criterion)),
+                                              column.criterion.share());
       summary.metrics.push_back(summary_of(place, summary.trials));
     }
   }

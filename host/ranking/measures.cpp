@@ -133,6 +133,21 @@ std::optional<double> Measures::value(std::size_t trial, const Criterion& criter
   return arrived.empty() ? std::nullopt : std::optional(core::mean(arrived));
 }
 
+bool Measures::are_same(const TrialsOfEntry& a, const TrialsOfEntry& b) const {
+  if (a.size() != b.size()) return false;
+  const auto same = [&](std::size_t one, std::size_t other) {
+    const TrialRecord& x = trials_[one];
+    const TrialRecord& y = trials_[other];
+    return x.repeatable && y.repeatable && !x.plan_sha256.empty() && x.plan_sha256 == y.plan_sha256 &&
+           x.outcome == y.outcome && x.sim_time_s == y.sim_time_s && times_[one] == times_[other] &&
+           std::all_of(criteria_.begin(), criteria_.end(),
+                       [&](const Criterion& by) { return value(one, by) == value(other, by); });
+  };
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!std::equal(a[i].begin(), a[i].end(), b[i].begin(), b[i].end(), same)) return false;
+  return true;
+}
+
 bool is_better(const std::vector<Criterion>& criteria, const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < criteria.size(); ++i) {
     if (std::isnan(a[i]) != std::isnan(b[i])) return std::isnan(b[i]);

@@ -53,6 +53,10 @@ class Measures {
   const std::vector<Criterion>& siblings() const { return siblings_; }
 
   JointValues joint(const Criterion& criterion) const;
+
+  // Whether two entries have the same plans, times and criteria in every trial. By situation: indices of trials.
+  using TrialsOfEntry = std::vector<std::vector<std::size_t>>;
+  bool are_same(const TrialsOfEntry& a, const TrialsOfEntry& b) const;
   std::optional<double> value(std::size_t trial, const Criterion& criterion) const;
 
  private:

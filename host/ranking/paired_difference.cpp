@@ -20,7 +20,7 @@ PairedDifference paired_difference(std::span<const double> by_task, PairedTest t
   PairedDifference result;
   result.over_tasks = core::difference_of_tasks(by_task, bounds_of_values(test == PairedTest::sign_flip), resampling);
   result.equal = std::all_of(defined.begin(), defined.end(), [](double one) { return std::fabs(one) < rounding; });
-  if (defined.size() < fewest_tasks || result.equal) return result;
+  if (defined.size() < fewest_observations || result.equal) return result;
   if (test == PairedTest::sign_flip) {
     const core::SignFlipTest flips = core::sign_flip_test(defined);
     result.p = flips.p;

@@ -15,7 +15,7 @@ namespace dmrp::host {
 inline constexpr double significant = 0.05;
 
 // Fewer tasks give no p.
-inline constexpr std::size_t fewest_tasks = 5;
+inline constexpr std::size_t fewest_observations = 5;
 
 enum class PairedTest { signed_rank, sign_flip };  // core/statistics; the second is for shares
 

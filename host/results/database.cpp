@@ -17,7 +17,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t schema_version = 4;
+constexpr std::int64_t schema_version = 5;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE trial(
@@ -34,6 +34,7 @@ CREATE TABLE trial(
   sim_time_s REAL NOT NULL,
   wall_time_s REAL NOT NULL,
   task TEXT NOT NULL DEFAULT '',
+  task_is_drawn INTEGER NOT NULL CHECK (task_is_drawn IN (0, 1)),
   plan_sha256 TEXT NOT NULL DEFAULT '',
   trace_sha256 TEXT NOT NULL DEFAULT '',
   row_sha256 TEXT NOT NULL DEFAULT ''
@@ -123,12 +124,17 @@ std::int64_t nanoseconds(double s) {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();  // bound as NULL
 
 void write_trial(const SqliteConnection& connection, const TrialRecord& trial) {
-  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(connection, "INSERT INTO trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(as_signed(trial.id)).bind(trial.scenario).bind(std::int64_t{trial.robots});
   insert.bind(trial.global_planner).bind(trial.local_controller).bind(trial.pedestrian_model);
   insert.bind(std::int64_t{trial.repetition}).bind(as_signed(trial.seed));
   insert.bind(trial.outcome).bind(std::int64_t{trial.repeatable}).bind(trial.sim_time_s).bind(trial.wall_time_s);
-  insert.bind(trial.task).bind(trial.plan_sha256).bind(trial.trace_sha256).bind(row_sha256(trial)).run();
+  insert.bind(trial.task)
+      .bind(std::int64_t{trial.task_is_drawn})
+      .bind(trial.plan_sha256)
+      .bind(trial.trace_sha256)
+      .bind(row_sha256(trial))
+      .run();
 }
 
 void write_swept(const SqliteConnection& connection, const TrialRecord& trial) {
@@ -187,8 +193,8 @@ void write_timing(const SqliteConnection& connection, const TrialRecord& trial) 
 std::vector<TrialRecord> read_trials(const SqliteConnection& connection, std::vector<std::string>& sha256s) {
   SqliteStatement select(connection,
                          "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, "
-                         "seed, outcome, repeatable, sim_time_s, wall_time_s, task, plan_sha256, trace_sha256, "
-                         "row_sha256 FROM trial ORDER BY id");
+                         "seed, outcome, repeatable, sim_time_s, wall_time_s, task, task_is_drawn, plan_sha256, "
+                         "trace_sha256, row_sha256 FROM trial ORDER BY id");
   std::vector<TrialRecord> trials;
   while (select.step()) {
     TrialRecord& trial = trials.emplace_back();
@@ -205,9 +211,10 @@ std::vector<TrialRecord> read_trials(const SqliteConnection& connection, std::ve
     trial.sim_time_s = select.column_number(10);
     trial.wall_time_s = select.column_number(11);
     trial.task = select.column_text(12);
-    trial.plan_sha256 = select.column_text(13);
-    trial.trace_sha256 = select.column_text(14);
-    sha256s.push_back(select.column_text(15));
+    trial.task_is_drawn = select.column_integer(13) != 0;
+    trial.plan_sha256 = select.column_text(14);
+    trial.trace_sha256 = select.column_text(15);
+    sha256s.push_back(select.column_text(16));
   }
   return trials;
 }

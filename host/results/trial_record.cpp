@@ -44,7 +44,7 @@ std::string row_sha256(const TrialRecord& row) {
   RowHash hash;
   hash.add(row.id).add(row.scenario).add(row.robots).add(row.global_planner).add(row.local_controller);
   hash.add(row.pedestrian_model).add(row.repetition).add(row.seed).add(row.outcome).add(row.repeatable);
-  hash.add(std::optional(row.sim_time_s)).add(std::optional(row.wall_time_s)).add(row.task);
+  hash.add(std::optional(row.sim_time_s)).add(std::optional(row.wall_time_s)).add(row.task).add(row.task_is_drawn);
   hash.add(row.plan_sha256).add(row.trace_sha256);
   for (const SweptValue& swept : row.swept) hash.add(swept.table).add(swept.key).add(swept.value);
   for (const MetricValue& value : row.values) {

@@ -97,6 +97,7 @@ struct TrialRecord {
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
   std::string task{};          // a hash of the robots' starts and goals; empty after a fault
+  bool task_is_drawn = false;  // for this trial; otherwise it is listed, for all repetitions
   std::string plan_sha256{};   // of the first plan's paths; empty if there is none
   std::string trace_sha256{};  // of the recorded file; likewise
   std::vector<SweptValue> swept{};

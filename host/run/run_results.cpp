@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 RunResults read_results(ResultsDatabase database, const SummaryLayout& layout, const fs::path& directory) {
   database.finish();
   RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}, {}};
-  results.summaries = summarise(results.metrics, results.trials, layout.counts_failures);
+  results.summaries = summarise(results.metrics, results.trials, {layout.counts_failures, layout.of_plans});
   results.summarised = results.metrics;
   const fs::path effective = directory / "effective.toml";
   add_places(bounds_of(read_file(effective, effective.string())), layout, results.trials, results.summarised,
@@ -104,17 +104,15 @@ std::string answer_block(const Answer& answer, std::span<const CombinationFailur
   return block;
 }
 
-// Of the combination with the fewest tasks.
-std::string few_tasks_caution(std::span<const CombinationSummary> summaries) {
-  std::size_t least = fewest_tasks;
-  for (const CombinationSummary& summary : summaries) {
-    std::uint32_t tasks = 0;
-    for (const MetricSummary& metric : summary.metrics) tasks = std::max(tasks, metric.tasks);
-    least = std::min<std::size_t>(least, tasks);
-  }
-  return least < fewest_tasks
-             ? fmt::format("caution: {}: means of so few can mislead (tasks = {{ drawn = 40 }} draws more)",
-                           least == 1 ? "1 task" : fmt::format("{} tasks", least))
+// Of the combination with the fewest observations.
+std::string caution_about_few(std::span<const CombinationSummary> summaries) {
+  std::size_t least = fewest_observations;
+  for (const CombinationSummary& summary : summaries) least = std::min<std::size_t>(least, summary.trials);
+  return least < fewest_observations
+             ? fmt::format(
+                   "caution: {}. For a comparison: [[scenario]] robots = 8, tasks = {{ drawn = 40 }} and "
+                   "[experiment] trials = 40",
+                   least == 1 ? "one trial" : fmt::format("{} trials", least))
              : "";
 }
 
@@ -134,12 +132,13 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   const std::size_t width = style.width > 0 ? style.width : text_width;
   if (!all_graded) {
     fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
-    fmt::print("{}\n", table_legend(layout, results.summarised, results.summaries, marks, {width, style.ansi}));
+    fmt::print("{}\n",
+               table_legend(layout, results.summarised, met_by_all(results.trials), marks, {width, style.ansi}));
   }
   if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
     fmt::print("{}\n", wrapped_text(drawn, width, "  "));
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
-  if (const std::string caution = few_tasks_caution(results.summaries); !caution.empty())
+  if (const std::string caution = caution_about_few(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
   const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
   for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
@@ -179,9 +178,10 @@ void print_results_as_json(const RunResults& results, const SummaryLayout& layou
                                                        {"trials", summary.trials}});
     for (std::size_t i = 0; i < results.summarised.size(); ++i)
       one["metrics"][results.summarised[i].name] = {
-          {"unit", results.summarised[i].unit},     {"tasks", summary.metrics[i].tasks},
-          {"defined", summary.metrics[i].defined},  {"mean", summary.metrics[i].mean},
-          {"low", summary.metrics[i].interval.low}, {"high", summary.metrics[i].interval.high}};
+          {"unit", results.summarised[i].unit},      {"tasks", summary.metrics[i].met.tasks},
+          {"crowds", summary.metrics[i].met.crowds}, {"n", summary.metrics[i].n},
+          {"defined", summary.metrics[i].defined},   {"mean", summary.metrics[i].mean},
+          {"low", summary.metrics[i].interval.low},  {"high", summary.metrics[i].interval.high}};
   }
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }

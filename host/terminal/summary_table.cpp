@@ -100,7 +100,7 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
     Cell cell{std::isnan(shown) ? undefined_cell : fixed(shown, layout.decimals), "", false};
     if (!std::isnan(shown) && spread && !std::isnan(row.summary->metrics[*spread].mean))
       cell.text += " ±" + fixed(row.summary->metrics[*spread].mean, layout.decimals);
-    if (share && summary.tasks > 1)
+    if (share && summary.n > 1)
       cell.text += " [" + fixed(summary.interval.low, layout.decimals) + ", " +
                    fixed(summary.interval.high, layout.decimals) + "]";
     if (summary.defined > 0 && summary.defined < row.summary->trials)
@@ -196,13 +196,9 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
   return text;
 }
 
-std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                         std::span<const CombinationSummary> summaries, std::span<const BestMark> marks,
-                         const TableStyle& style) {
-  std::uint32_t tasks = 0;
-  for (const CombinationSummary& summary : summaries)
-    for (const MetricSummary& metric : summary.metrics) tasks = std::max(tasks, metric.tasks);
-  std::vector<std::string> parts = {tasks == 1 ? "1 task" : "means over " + std::to_string(tasks) + " tasks"};
+std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics, const Met& met,
+                         std::span<const BestMark> marks, const TableStyle& style) {
+  std::vector<std::string> parts = {"means over " + met_words(met)};
   bool spread = false;
   bool marked = false;
   for (const SummaryTableColumn& column : layout.columns) {

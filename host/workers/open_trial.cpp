@@ -32,6 +32,7 @@ TrialRecord row_of(const Experiment& experiment, std::uint64_t trial) {
   record.pedestrian_model = label(experiment.pedestrian_models, combination.pedestrian_model);
   record.repetition = id.repetition;
   record.seed = trial_seed(experiment, trial);
+  record.task_is_drawn = is_drawn(variant);
   return record;
 }
 

@@ -27,10 +27,10 @@ def optional(value):
 
 def digest(database, trial):
     (identity, scenario, robots, planner, controller, model, repetition, seed, outcome, repeatable, sim_s, wall_s,
-     task) = trial
+     task, drawn) = trial
     parts = [number(identity), text(scenario), number(robots), text(planner), text(controller), text(model),
              number(repetition), number(seed), text(outcome), number(repeatable), real(sim_s), real(wall_s), text(task),
-             text(""), text("")]
+             number(drawn), text(""), text("")]
     for swept in database.execute('SELECT "table", "key", value FROM swept WHERE trial_id = ? ORDER BY rowid', (identity,)):
         parts += [text(part) for part in swept]
     kinds = ("system", "robot", "pedestrian")
@@ -46,7 +46,7 @@ database.execute("PRAGMA foreign_keys = ON")
 database.executescript(sys.argv[2])
 trials = database.execute(
     "SELECT id, scenario, robots, global_planner, local_controller, pedestrian_model, repetition, seed, outcome, "
-    "repeatable, sim_time_s, wall_time_s, task FROM trial").fetchall()
+    "repeatable, sim_time_s, wall_time_s, task, task_is_drawn FROM trial").fetchall()
 for trial in trials:
     database.execute("UPDATE trial SET plan_sha256 = '', trace_sha256 = '', row_sha256 = ? WHERE id = ?",
                      (digest(database, trial), trial[0]))

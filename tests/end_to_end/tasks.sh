@@ -42,7 +42,7 @@ found=$(sqlite3 :memory: "WITH data AS (SELECT CAST(readfile('$scratch/data.json
 # export
 expect_status 0 "$host" export "$run" --latex --metric success --rows controller,planner
 grep -F "together + DWA" "$scratch/stdout" | grep -qF "0.96 $interval" || fail "export has no $interval: $(cat "$scratch/stdout")"
-grep -q "means over 5 tasks" "$scratch/stdout" || fail "the caption does not say n"
+grep -q "means over 5 drawn tasks x 20 crowds" "$scratch/stdout" || fail "the caption does not say n"
 
 # compare: n, and the interval of a share's difference is that of the page
 cp -r "$run" "$scratch/other"

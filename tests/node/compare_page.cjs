@@ -99,13 +99,13 @@ const tests = {
 
   async 'cautions where tasks are few or trials have no partner'(browser) {
     const few = with_data(page_of_both, (data) => {
-      for (const one of data.runs[0].differences) Object.assign(one, {tasks: 3, p: null, p_holm: null, equal: false, difference: 0.123});
+      for (const one of data.runs[0].differences) Object.assign(one, {n: 3, p: null, p_holm: null, equal: false, difference: 0.123});
       data.runs[0].only_before = 2;
     });
     const opened = await open_report(browser, few, {last});
     const verdict = await opened.page.locator('.verdict').textContent();
     assert.match(verdict, /No metric can be told apart/);
-    assert.match(verdict, /3 tasks: no difference can be told apart with fewer than 5/);
+    assert.match(verdict, /n = 3: no difference can be told apart with fewer than 5/);
     for (const row of await opened.page.locator('#run-0 tbody tr').all())
       assert.match((await cells(row)).slice(3, 5).join(), /^—,3$/);
     assert.match(verdict, /2 trials without a partner \(2 before, 0 after\)/);

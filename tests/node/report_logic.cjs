@@ -306,10 +306,10 @@ const tests = {
     same([all, {cells: [cell]}].map((one) => answer.scope_words(data, one)), ['all', 'mall']);
     data.answers.push({cells: [{...cell, robots: 20}]});
     same(answer.scope_words(data, {cells: [cell]}), 'mall · 2 robots');
-    const against = {tasks: 20, mean: -0.25, low: -0.4, high: -0.1, equal: false};
+    const against = {n: 20, mean: -0.25, low: -0.4, high: -0.1, equal: false};
     same(answer.difference_words(against), '\u22120.25 [\u22120.40, \u22120.10]');
     same(answer.difference_words({...against, mean: 0, equal: true}), '=');
-    same(answer.difference_words({...against, tasks: 0}), '—');
+    same(answer.difference_words({...against, n: 0}), '—');
   },
   'a threshold opens the trials of its level, failed ones first'() {
     const result = {global_planner: 'P', local_controller: 'C', pedestrian_model: '', means: [0, 0.5, 1]};

@@ -236,7 +236,7 @@ tests['few tasks have no p and no correlation'] = async (browser) => {
   assert.match(await page.locator('#left-out').textContent(), /Paired differences: no two combinations share 5 tasks/);
   await close(opened);
   const one_pair = with_data(six_pairs, (data) => {
-    for (const one of data.comparisons.filter((_, i) => i % 2 === 0)) Object.assign(one, {tasks: 1, effect: -1, p: null, p_holm: null});
+    for (const one of data.comparisons.filter((_, i) => i % 2 === 0)) Object.assign(one, {n: 1, effect: -1, p: null, p_holm: null});
   });
   const mixed = await open_report(browser, one_pair);
   const rows = await mixed.page.locator('#comparisons tbody tr:not(.group)').allTextContents();

@@ -68,7 +68,7 @@ void adjust(const ReportFrame& frame, std::vector<PairedComparison>& comparisons
 std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const ExperimentFacts& facts,
                                                  const ReportLayout& layout,
                                                  std::span<const std::string> counts_failures) {
-  const Findings findings = make_findings(frame.trials, frame.tasks, [&](std::size_t trial) {
+  const Findings findings = make_findings(frame.trials, frame.observations, [&](std::size_t trial) {
     const CombinationLabels& labels = frame.combinations[frame.combination_of[trial]];
     return Split{labels, {labels.scenario, labels.robots, "", "", ""}};
   });
@@ -84,10 +84,10 @@ std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const
       for (std::size_t a = 0; a < findings.entries.size(); ++a)
         for (std::size_t b = a + 1; b < findings.entries.size(); ++b) {
           if (!differ_only_in(varied, findings.entries[a], findings.entries[b])) continue;
-          const JointFindings joint = joint_findings(findings, frame.tasks, std::vector{a, b}, values);
+          const JointFindings joint = joint_findings(findings, frame.observations, std::vector{a, b}, values);
           if (joint.situations == 0) continue;
           PairedComparison& comparison =
-              comparisons.emplace_back(compare(joint, compared.test, frame.tasks.resampling));
+              comparisons.emplace_back(compare(joint, compared.test, frame.observations.resampling));
           comparison.metric = *metric;
           comparison.varied = varied;
           comparison.a = frame.combination(findings.entries[a]);

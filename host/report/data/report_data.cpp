@@ -37,11 +37,12 @@ struct MetricCurve {
 
 using Values = std::map<std::size_t, double>;  // by trial, without undefined ones
 
-CurvePoint summarise_point(double coordinate, const Values& values, const Tasks& tasks) {
+CurvePoint summarise_point(double coordinate, const Values& values, const Observations& observations) {
   std::vector<std::size_t> trials;
   for (const auto& [trial, value] : values) trials.push_back(trial);
   const auto value_of = [&](std::size_t trial) { return std::optional(values.at(trial)); };
-  return {coordinate, core::mean_of_tasks(task_means(tasks, trials, value_of), {}, tasks.resampling),
+  return {coordinate,
+          core::mean_of_tasks(observation_means(observations, trials, value_of), {}, observations.resampling),
           static_cast<std::uint32_t>(values.size())};
 }
 
@@ -66,7 +67,7 @@ std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const std::stri
   for (const auto& [key, points] : collected) {
     MetricCurve curve{key.first, key.second, {}};
     for (const auto& [coordinate, values] : points)
-      curve.points.push_back(summarise_point(coordinate, values, frame.tasks));
+      curve.points.push_back(summarise_point(coordinate, values, frame.observations));
     const bool defined =
         std::any_of(curve.points.begin(), curve.points.end(), [](const auto& point) { return point.defined > 0; });
     if (defined) curves.push_back(std::move(curve));
@@ -183,7 +184,7 @@ Json values_json(const ReportFrame& frame, const std::set<std::size_t>& curves) 
 
 Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
   return {{"trials", trials},
-          {"tasks", summary.tasks},
+          {"n", summary.n},
           {"defined", summary.defined},
           {"mean", summary.mean},
           {"sd", summary.sd},
@@ -216,8 +217,8 @@ CombinationLabels planner_of(const TrialRecord& trial) {
   return {trial.scenario, trial.robots, trial.global_planner, "", ""};
 }
 
-void add_planners(Json& json, const ReportFrame& frame, std::span<const std::string> counts_failures) {
-  const auto summaries = summarise(frame.metrics, frame.trials, counts_failures, planner_of);
+void add_planners(Json& json, const ReportFrame& frame, const MetricKinds& kinds) {
+  const auto summaries = summarise(frame.metrics, frame.trials, kinds, planner_of);
   json["planners"] = Json::array();
   std::vector<CombinationLabels> groups;
   for (const CombinationSummary& summary : summaries) {
@@ -336,20 +337,23 @@ ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
 
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
   const ReportFrame frame = make_report_frame(run.metrics, run.trials);
-  const std::vector<std::string>& counts_failures = layouts.summary.counts_failures;
+  const MetricKinds kinds = {layouts.summary.counts_failures, layouts.summary.of_plans};
   std::vector<MetricColumn> metrics = run.metrics;
-  std::vector<CombinationSummary> summaries = summarise(run.metrics, run.trials, counts_failures);
+  std::vector<CombinationSummary> summaries = summarise(run.metrics, run.trials, kinds);
   add_places(bounds_of(run.effective_toml), layouts.summary, run.trials, metrics, summaries);
   Json json;
   json["format"] = 1;
   json["run"] = run_json(run);
+  const Met met = met_by_all(run.trials);
+  json["met"] = met_words(met);
+  json["observation"] = observation_name(met);
   json["scenarios"] = scenarios_json(run.manifest.experiment.scenarios);
   json["metrics"] = metrics_json(metrics);
   json["combinations"] = combinations_json(frame);
   json["trials"] = trials_json(frame);
   json["values"] = values_json(frame, curve_metrics(frame));
   json["summaries"] = summaries_json(frame.combinations, summaries, metrics.size());
-  add_planners(json, frame, counts_failures);
+  add_planners(json, frame, kinds);
   json["curves"] =
       curves_json(frame, metric_curves(frame, layouts.summary.answer.people_progress), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);

@@ -11,7 +11,8 @@
 //   trials            columns: {id, combination, repetition, seed, outcome, repeatable, sim_time_s, wall_time_s}
 //   values            {metric: [the system's value of each trial]}, to seven significant digits; without metrics that
 //                     have curves only
-//   summaries         [combination][metric]: {trials, tasks, defined, mean, sd, median, low, high, paper_mean,
+//   met               what the trials have met, in words; observation: "task" or "crowd", that n counts
+//   summaries         [combination][metric]: {trials, n, defined, mean, sd, median, low, high, paper_mean,
 //                     paper_count, paper_trimmed_all_nonzero}: the numbers of summary.csv
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all
 //                     controllers and pedestrian models

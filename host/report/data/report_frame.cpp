@@ -17,7 +17,7 @@ std::size_t ReportFrame::combination(const CombinationLabels& labels) const {
 }
 
 ReportFrame make_report_frame(std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials) {
-  ReportFrame frame{metrics, trials, {}, {}, system_values(metrics, trials), tasks_of(trials)};
+  ReportFrame frame{metrics, trials, {}, {}, system_values(metrics, trials), observations_of(trials)};
   for (const TrialRecord& trial : trials) {
     const CombinationLabels labels = combination_of(trial);
     frame.combination_of.push_back(frame.combination(labels));

@@ -20,7 +20,7 @@ struct ReportFrame {
   std::vector<CombinationLabels> combinations;  // in order of first appearance, including those of skipped trials
   std::vector<std::size_t> combination_of;      // of each trial
   SystemValues values;                          // [trial][metric]
-  Tasks tasks;
+  Observations observations;
 
   std::size_t combination(const CombinationLabels& labels) const;  // its index
 

@@ -94,10 +94,12 @@ core::RankCorrelation correlate(const ReportFrame& frame, const Stratum& stratum
   std::vector<std::vector<double>> xs;
   std::vector<std::vector<double>> ys;
   for (const auto& [combination, trials] : controllers) {
-    xs.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][x]; }));
-    ys.push_back(task_means(frame.tasks, trials, [&](std::size_t trial) { return frame.values[trial][y]; }));
+    xs.push_back(
+        observation_means(frame.observations, trials, [&](std::size_t trial) { return frame.values[trial][x]; }));
+    ys.push_back(
+        observation_means(frame.observations, trials, [&](std::size_t trial) { return frame.values[trial][y]; }));
   }
-  return core::task_rank_correlation(xs, ys, frame.tasks.resampling);
+  return core::task_rank_correlation(xs, ys, frame.observations.resampling);
 }
 
 std::vector<StratumCorrelation> stratum_correlations(const ReportFrame& frame, const DiagnosisAxes& axes) {
@@ -123,7 +125,7 @@ std::vector<core::TimeToEvent> robots_of(const TrialRecord& trial, const std::st
 }
 
 // Nobody is censored before the horizon: the area under the curve is a mean.
-core::MeanOfTasks restricted_mean(const Tasks& tasks, std::span<const std::size_t> trials,
+core::MeanOfTasks restricted_mean(const Observations& observations, std::span<const std::size_t> trials,
                                   const std::vector<std::vector<core::TimeToEvent>>& by_trial, double horizon_s) {
   const auto mean_of = [&](std::size_t trial) -> std::optional<double> {
     if (by_trial[trial].empty()) return std::nullopt;
@@ -131,7 +133,8 @@ core::MeanOfTasks restricted_mean(const Tasks& tasks, std::span<const std::size_
     for (const core::TimeToEvent& robot : by_trial[trial]) sum_s += std::min(robot.time, horizon_s);
     return sum_s / static_cast<double>(by_trial[trial].size());
   };
-  return core::mean_of_tasks(task_means(tasks, trials, mean_of), core::Interval{0.0, horizon_s}, tasks.resampling);
+  return core::mean_of_tasks(observation_means(observations, trials, mean_of), core::Interval{0.0, horizon_s},
+                             observations.resampling);
 }
 
 // The time limit, or the end of the longest trial if the manifest has none.
@@ -162,7 +165,7 @@ std::vector<ArrivalTimes> arrival_times(const ReportFrame& frame, const Experime
     if (robots.empty()) continue;
     const auto arrived = std::count_if(robots.begin(), robots.end(), [](const auto& robot) { return robot.happened; });
     found.push_back({i, static_cast<std::uint32_t>(robots.size()), horizon_s,
-                     restricted_mean(frame.tasks, trials, by_trial, horizon_s),
+                     restricted_mean(frame.observations, trials, by_trial, horizon_s),
                      static_cast<double>(arrived) / static_cast<double>(robots.size()), core::kaplan_meier(robots)});
   }
   return found;
@@ -176,9 +179,10 @@ std::vector<PedestrianDelay> pedestrian_delays(const ReportFrame& frame, const S
     if (delays[i]) trials_of[frame.combination_of[i]].push_back(i);
   std::vector<PedestrianDelay> found;
   for (const auto& [combination, trials] : trials_of)
-    found.push_back({combination, static_cast<std::uint32_t>(trials.size()),
-                     core::mean_of_tasks(task_means(frame.tasks, trials, [&](std::size_t i) { return delays[i]; }), {},
-                                         frame.tasks.resampling)});
+    found.push_back(
+        {combination, static_cast<std::uint32_t>(trials.size()),
+         core::mean_of_tasks(observation_means(frame.observations, trials, [&](std::size_t i) { return delays[i]; }),
+                             {}, frame.observations.resampling)});
   return found;
 }
 
@@ -199,7 +203,7 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
   json["combinations"] = {one.a, one.b};
   const core::MeanOfTasks& over_tasks = one.difference.over_tasks;
   json["pairs"] = one.pairs;
-  json["tasks"] = over_tasks.n;
+  json["n"] = over_tasks.n;
   json["ties"] = one.ties;
   json["median_difference"] = one.shift.estimate;
   json["low"] = one.shift.interval.low;
@@ -245,9 +249,12 @@ Json completion_json(const ArrivalTimes& one) {
 }
 
 Json delay_json(const PedestrianDelay& one) {
-  return {{"combination", one.combination},     {"pairs", one.pairs},
-          {"tasks", one.over_tasks.n},          {"mean_s", one.over_tasks.mean},
-          {"low", one.over_tasks.interval.low}, {"high", one.over_tasks.interval.high}};
+  return {{"combination", one.combination},
+          {"pairs", one.pairs},
+          {"n", one.over_tasks.n},
+          {"mean_s", one.over_tasks.mean},
+          {"low", one.over_tasks.interval.low},
+          {"high", one.over_tasks.interval.high}};
 }
 
 Json ranked_json(const Answer& answer, const RankedCombination& one) {
@@ -264,7 +271,7 @@ Json ranked_json(const Answer& answer, const RankedCombination& one) {
   for (const core::Interval& interval : one.intervals) json["intervals"].push_back({interval.low, interval.high});
   json["against"] = Json::array();
   for (const PairedDifference& against : one.against)
-    json["against"].push_back({{"tasks", against.over_tasks.n},
+    json["against"].push_back({{"n", against.over_tasks.n},
                                {"mean", against.over_tasks.mean},
                                {"low", against.over_tasks.interval.low},
                                {"high", against.over_tasks.interval.high},
@@ -274,7 +281,7 @@ Json ranked_json(const Answer& answer, const RankedCombination& one) {
 
 Json answer_json(const Answer& answer, std::span<const CombinationFailures> failures) {
   Json json = {{"heading", answer_heading(answer)},
-               {"tasks", answer.tasks},
+               {"n", answer.n},
                {"worlds", answer.worlds},
                {"lines", answer_lines(answer, failures)}};
   json["cells"] = Json::array();

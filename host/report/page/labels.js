@@ -23,8 +23,7 @@ export function distinct(values) {
 
 // What numbers of a run are about: the end of a table's caption.
 export function population(data) {
-  const tasks = data.summaries.flat().map((one) => (one ? one.tasks : 0));
-  return `n = ${numbers.counted(Math.max(0, ...tasks), 'task')} at most, in the worlds of this run.`;
+  return `The trials: ${data.met}.`;
 }
 
 // A variant is a scenario with a number of robots; combinations are compared within a variant. `combinations`: their

@@ -2,7 +2,7 @@
 // numbers.js: formats numbers, intervals and units.
 
 export const UNDEFINED = '—';
-export const FEWEST = 5; // tasks of which a test has a p (paired_difference.hpp)
+export const FEWEST = 5; // observations of which a test has a p (paired_difference.hpp)
 export const FEWEST_FOR_CORRELATION = 6; // tasks (rank_correlation.hpp)
 
 export function is_number(value) {

@@ -26,7 +26,7 @@ namespace {
 
 // Intervals of shares need no resamples.
 core::Resampling one_world(std::size_t tasks) {
-  return {std::vector<std::uint32_t>(tasks), core::Scope::these_worlds, 0};
+  return {std::vector<std::uint32_t>(observations), core::Scope::these_worlds, 0};
 }
 
 constexpr std::uint64_t halvings = 100;
@@ -40,7 +40,7 @@ struct Criteria {
 // Entries that met the same tasks.
 struct Contest {
   const Measures& measures;
-  const Tasks& tasks;
+  const Observations& observations;
   Findings findings;
 
   std::vector<std::size_t> trials_of(std::size_t entry) const {
@@ -51,7 +51,8 @@ struct Contest {
   }
   // By task; NaN: undefined.
   std::vector<double> values(std::size_t entry, const Criterion& criterion) const {
-    return task_means(tasks, trials_of(entry), [&](std::size_t trial) { return measures.value(trial, criterion); });
+    return observation_means(observations, trials_of(entry),
+                             [&](std::size_t trial) { return measures.value(trial, criterion); });
   }
   double mean(std::size_t entry, const Criterion& criterion) const {
     return core::mean(defined(values(entry, criterion)));
@@ -59,7 +60,8 @@ struct Contest {
 
   // Of the tasks that both met.
   std::vector<double> differences(std::size_t a, std::size_t b, const Criterion& criterion) const {
-    return defined(joint_findings(findings, tasks, std::vector{a, b}, measures.joint(criterion)).differences(0, 1));
+    return defined(
+        joint_findings(findings, observations, std::vector{a, b}, measures.joint(criterion)).differences(0, 1));
   }
 
   static std::vector<double> defined(std::vector<double> values) {
@@ -161,12 +163,12 @@ double half_agreement(const Criteria& criteria, const std::vector<std::vector<do
   std::vector<double> found;
   for (std::uint64_t i = 0; i < halvings; ++i) {
     toolkit::Stream stream(i, "discrimination.halves");
-    std::vector<std::size_t> order(tasks);
+    std::vector<std::size_t> order(observations);
     for (std::size_t task = 0; task < tasks; ++task) order[task] = task;
     stream.shuffle(order);
-    std::vector<char> first(tasks, 0);
+    std::vector<char> first(observations, 0);
     for (std::size_t k = 0; k < tasks / 2; ++k) first[order[k]] = 1;
-    std::vector<char> second(tasks, 1);
+    std::vector<char> second(observations, 1);
     for (std::size_t task = 0; task < tasks; ++task) second[task] = first[task] ? 0 : 1;
     const double tau =
         kendall_tau(positions_over(criteria, shares, times, first), positions_over(criteria, shares, times, second));
@@ -229,7 +231,7 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
                                             std::span<const TrialRecord> trials) {
   const Measures measures(layout, metrics, trials);
   if (measures.criteria().empty()) return {};
-  const Tasks tasks = tasks_of(trials);
+  const Observations observations = observations_of(trials);
   Criteria criteria = {measures.criteria().front(), {}};
   if (measures.criteria().back().kind == Criterion::Kind::time) criteria.time = measures.criteria().back();
   std::vector<CombinationLabels> cells;
@@ -239,7 +241,7 @@ std::vector<Discrimination> discriminations(const SummaryLayout& layout, std::sp
   }
   std::vector<Discrimination> all;
   for (const CombinationLabels& cell : cells) {
-    const Contest contest{measures, tasks, make_findings(trials, tasks, [&](std::size_t i) {
+    const Contest contest{measures, observations, make_findings(trials, observations, [&](std::size_t i) {
                             const auto split = by_planner_and_controller(trials[i]);
                             return split && split->cell == cell ? split : std::nullopt;
                           })};

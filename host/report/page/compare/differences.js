@@ -21,12 +21,12 @@ function cells(data, difference) {
     number('after', numbers.fixed(difference.after, digits)),
     interval_rows.difference_cell('difference', estimate_of(difference), digits),
     number('p (Holm)', numbers.p_value(difference.p_holm)),
-    number('tasks', `${difference.tasks}`),
+    number('n', `${difference.n}`),
     element('td', {class: `judged ${judged}`}, judgement.WORDS[judged]),
   ];
 }
 
-const HEADS = ['before', 'after', 'difference', 'p (Holm)', 'tasks'];
+const HEADS = ['before', 'after', 'difference', 'p (Holm)', 'n'];
 
 function metrics_table(data, run) {
   const rows = run.differences.map((difference) => {
@@ -50,8 +50,8 @@ export function mount_metrics(body, data, run) {
     element(
       'p',
       {class: 'note'},
-      'Means over the tasks that both runs have. Difference: after minus before, in pairs, with its 95 % interval; ' +
-        'all trials of a task count together. p (Holm): corrected for the number of metrics; ' +
+      'Means over the n tasks, or crowds of listed tasks, that both runs have. Difference: after minus before, in pairs, with its 95 % interval; ' +
+        'all trials of one count together. p (Holm): corrected for the number of metrics; ' +
         'better, worse and changed are below 0.05. A trial that ended in a fault failed, the time of a failed trial is ' +
         'the time limit, lengths are compared where both trials succeeded.'
     )

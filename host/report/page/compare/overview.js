@@ -37,12 +37,12 @@ export function lines(data, run) {
     found.push({kind: 'good', mark: '=', text: 'All values are equal in every trial.'});
   else if (found.length === 0)
     found.push({kind: 'note', mark: 'i', text: 'No metric can be told apart over all trials.'});
-  const tasks = Math.max(0, ...run.differences.map((one) => one.tasks));
-  if (tasks < numbers.FEWEST)
+  const n = Math.max(0, ...run.differences.map((one) => one.n));
+  if (n < numbers.FEWEST)
     found.push({
       kind: 'warning',
       mark: '!',
-      text: `${numbers.counted(tasks, 'task')}: no difference can be told apart with fewer than ${numbers.FEWEST}.`,
+      text: `n = ${n}: no difference can be told apart with fewer than ${numbers.FEWEST}.`,
     });
   const alone = run.only_before + run.only_after;
   if (alone > 0)

@@ -68,7 +68,7 @@ function table(data, rows, variants) {
   return titled_table(
     'title-completion',
     'Restricted mean time to arrive',
-    'The mean over all robots; a robot that has not arrived counts with the time limit. 95 % intervals over tasks; ' +
+    `The mean over all robots; a robot that has not arrived counts with the time limit. 95 % intervals over ${data.observation}s; ` +
       labels.population(data),
     made
   );

@@ -81,10 +81,11 @@ function correlation_table(data, strata) {
   if (pairs.length === 0) return null;
   const title = ([x, y]) => `${labels.metric_title(data, x)}, ${labels.metric_title(data, y)}`;
   const note =
-    'Spearman\u2019s ρ over the tasks in which both metrics are defined. Each controller\u2019s tasks are ranked on their ' +
-    'own: differences between controllers count for nothing. 95 % intervals are over tasks; p is from permutations of ' +
-    'tasks, the same for all controllers. Fewer than six tasks have no correlation. ' +
-    `Ties: the share of pairs of a controller\u2019s tasks with equal values of one of the metrics. ${labels.population(data)}`;
+    `Spearman\u2019s ρ over the ${data.observation}s in which both metrics are defined. Each controller\u2019s are ` +
+    'ranked on their own: differences between controllers count for nothing. 95 % intervals are over them; p is from ' +
+    'their permutations, the same for all controllers. Fewer than six have no correlation. ' +
+    'Ties: the share of pairs of a controller\u2019s with equal values of one of the metrics. ' +
+    labels.population(data);
   return titled_table(
     'title-correlations',
     'Rank correlations',

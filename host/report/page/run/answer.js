@@ -26,7 +26,7 @@ export function scope_words(data, answer) {
 
 // The difference to the first in a criterion: "−0.25 [−0.35, −0.15]"; "=" where no pair differs.
 export function difference_words(against) {
-  if (against.tasks === 0) return numbers.UNDEFINED;
+  if (against.n === 0) return numbers.UNDEFINED;
   if (against.equal) return '=';
   const interval = numbers.interval(against.low, against.high, DECIMALS, numbers.signed);
   return [numbers.signed(against.mean, DECIMALS), interval].filter(Boolean).join(' ');
@@ -42,7 +42,7 @@ function criterion_cell(one, c) {
     against &&
       element(
         'span',
-        {class: 'against', 'data-about': `difference to the first, over ${numbers.counted(against.tasks, 'task')}`},
+        {class: 'against', 'data-about': `difference to the first, over n = ${against.n}`},
         one.decided === c && hidden('decides: '),
         difference_words(against)
       )
@@ -77,7 +77,7 @@ const KEY =
   'Those that may be the best come first; with 95 % confidence the best is among them. The criteria count from left to ' +
   'right: in the next, one is compared with those to which it was shown not to be inferior by 5 points or half a second. ' +
   'Time is that of arrival over the length of the robot\u2019s shortest way, of robots that arrived. Below each mean: its ' +
-  '95 % interval over tasks, and the paired difference to the first. Framed: what tells that it is not the best.';
+  '95 % interval, and the paired difference to the first. Framed: what tells that it is not the best.';
 
 function answer_element(answer) {
   return [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// comparisons.js: paired differences between combinations on the same tasks, as a forest plot.
+// comparisons.js: paired differences between combinations on what both met, as a forest plot.
 import * as controls from '../controls.js';
 import {bodies_of, element, fill, head_row, number_head} from '../elements.js';
 import * as labels from '../labels.js';
@@ -62,8 +62,8 @@ function row_element(data, comparison, x, decimals) {
     number('p (Holm)', numbers.p_value(comparison.p_holm)),
     number('effect', numbers.signed(comparison.effect, 2)),
     number(
-      'tasks',
-      `${comparison.tasks}`,
+      'n',
+      `${comparison.n}`,
       comparison.ties > 0 && element('span', {class: 'given'}, ` (${numbers.counted(comparison.ties, 'tie')})`)
     )
   );
@@ -82,7 +82,7 @@ function head(metric, title, x) {
     element('th', {scope: 'col'}, 'first \u2212 second'),
     interval_rows.axis(x, ...side_words(metric.direction)),
     number_head(title, numbers.unit(metric.unit)),
-    ['p', 'p (Holm)', 'effect', 'tasks'].map((name) => number_head(name))
+    ['p', 'p (Holm)', 'effect', 'n'].map((name) => number_head(name))
   );
 }
 
@@ -118,7 +118,7 @@ function note_words(data, rows, chosen) {
     `\u22121 to 1. Tasks: those ${successes ? 'in which both trials succeeded' : 'with values in both trials'}, ` +
     'each the mean over its crowds.' +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
-    ` Below ${numbers.FEWEST} tasks there is no p. ${labels.population(data)}`
+    ` n: ${data.observation}s; below ${numbers.FEWEST} there is no p. ${labels.population(data)}`
   );
 }
 
@@ -134,8 +134,8 @@ export function default_metric(data) {
 
 // The reason why there is nothing to show, or null.
 export function absent(data) {
-  if (data.comparisons.some((one) => one.tasks >= numbers.FEWEST)) return null;
-  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} tasks`;
+  if (data.comparisons.some((one) => one.n >= numbers.FEWEST)) return null;
+  if (data.comparisons.length > 0) return `no two combinations share ${numbers.FEWEST} ${data.observation}s`;
   return data.combinations.length < 2 ? 'there is one combination' : 'no two combinations share a trial';
 }
 

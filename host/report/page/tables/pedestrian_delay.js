@@ -18,7 +18,7 @@ function table_of(data, rows, variants) {
       interval_rows.cell(one, x, one.low > 0 || one.high < 0),
       interval_rows.difference_cell('delay', one, 2),
       element('td', {class: 'number', 'data-label': 'pairs'}, one.pairs),
-      element('td', {class: 'number', 'data-label': 'tasks'}, one.tasks)
+      element('td', {class: 'number', 'data-label': 'n'}, one.n)
     );
   const table = element(
     'table',
@@ -28,7 +28,7 @@ function table_of(data, rows, variants) {
       interval_rows.axis(x, '← sooner', 'later →'),
       number_head('delay', 's'),
       number_head('pairs'),
-      number_head('tasks')
+      number_head('n')
     ),
     bodies_of(data, variants, 4, (variant) =>
       estimates.filter((one) => variant.combinations.includes(one.combination)).map(row_of)
@@ -67,7 +67,7 @@ export function mount(body, data) {
     element(
       'p',
       {class: 'note'},
-      `Bars: 95 % intervals over tasks, from ten on. Filled: the interval excludes zero. ${labels.population(data)}`
+      `Bars: 95 % intervals over n ${data.observation}s, from ten on. Filled: the interval excludes zero. ${labels.population(data)}`
     )
   );
 }

@@ -184,10 +184,10 @@ function table_element(data, {layout, variants}) {
   return titled_table(`title-${layout.id}`, layout.title, [layout.note, labels.population(data)].filter(Boolean).join(' '), table);
 }
 
-const KEY =
+const key_of = (data) =>
   'Dot and bold: with 95 % confidence better than all others of the column within a scenario; for values of driving only ' +
-  'where all rows have the same success. Means are over tasks. Brackets: 95 % interval ' +
-  'over tasks, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
+  `where all rows have the same success. Means are over ${data.observation}s. Brackets: 95 % interval ` +
+  'over them, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
   'defined. Paired differences tests the differences between rows. Click a header to sort.';
 const PAPER_KEY =
   'Third line: the mean by the paper\u2019s rule, with the number of trials in parentheses: it excludes failed ' +
@@ -223,7 +223,7 @@ export function mount(body, data) {
       })
     ),
     holder,
-    element('p', {class: 'note'}, KEY),
+    element('p', {class: 'note'}, key_of(data)),
     paper_key
   );
 }

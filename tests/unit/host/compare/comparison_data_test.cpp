@@ -37,7 +37,7 @@ TEST_CASE("the data of a comparison's page have both runs and the differences", 
   CHECK(json["metrics"][2]["name"] == "done");
   const auto& run = json["runs"][0];
   CHECK(run["path"] == "runs/b");
-  CHECK(run["differences"][0]["tasks"] == 5);
+  CHECK(run["differences"][0]["n"] == 5);
   CHECK(run["differences"][0]["difference"] == 0.25);
   CHECK(run["differences"][0]["low"] == 0.125);
   CHECK(run["differences"][0]["p"].is_null());

@@ -94,7 +94,7 @@ TEST_CASE("a table has the means of the trials that agree in its labels", "[expo
   CHECK_THAT(latex, Contains("\\multicolumn{2}{c}{2 robots} & \\multicolumn{2}{c}{4 robots}"));
   CHECK_THAT(latex, Contains("slow & 0.75 [0."));
   CHECK_THAT(latex, Contains("] & 47.0\\,(5/10) & -- & -- \\\\"));
-  CHECK_THAT(latex, Contains("Results: means over 10 tasks. In brackets: 95 \\% intervals over tasks."));
+  CHECK_THAT(latex, Contains("Results: means over 10 drawn tasks. In brackets: 95 \\% intervals over tasks."));
 }
 
 TEST_CASE("a column of medians is not moved by one slow trial", "[export]") {
@@ -109,8 +109,8 @@ TEST_CASE("a column of medians is not moved by one slow trial", "[export]") {
   };
   CHECK(*table_of(mean).rows[0].cells[0].value == Approx(54.0));
   CHECK(*table_of(median).rows[0].cells[0].value == Approx(45.0));
-  CHECK_THAT(latex_table(table_of(median)), Contains("means over 5 tasks, medians of time."));
-  CHECK_THAT(latex_table(table_of(mean)), Contains("means over 5 tasks."));
+  CHECK_THAT(latex_table(table_of(median)), Contains("means over 5 drawn tasks, medians of time."));
+  CHECK_THAT(latex_table(table_of(mean)), Contains("means over 5 drawn tasks."));
 }
 
 TEST_CASE("rows by controller are over the tasks that every planner solves", "[export]") {
@@ -215,7 +215,7 @@ TEST_CASE("a table as a figure has the values of the LaTeX table", "[export]") {
   CHECK_THAT(svg, Contains(">slow</text>"));
   CHECK_THAT(svg, Contains(">47.0 (5/10)</text>"));
   CHECK_THAT(svg, Contains(">\u2013</text>"));  // no trials with four robots
-  CHECK_THAT(svg, Contains(">A &lt; B: means over 10 tasks."));
+  CHECK_THAT(svg, Contains(">A &lt; B: means over 10 drawn tasks."));
   CHECK(count_of(svg, "class=\"unit\">s</text>") == 2);
   CHECK(count_of(svg, "<path class=\"rule \"") == 2);
 }

@@ -29,7 +29,7 @@ TEST_CASE("trials are summarised by combination", "[results]") {
   CHECK(time.mean == Approx(124.0 / 3.0));
   CHECK(time.sd == Approx(std::sqrt(16.0 / 3.0)));
   CHECK(time.median == 40.0);
-  CHECK(time.tasks == 3);
+  CHECK(time.n == 3);
   CHECK(std::isnan(time.interval.low));  // ten tasks have one
   CHECK(time.paper.mean == Approx(124.0 / 3.0));
 
@@ -52,8 +52,8 @@ TEST_CASE("five tasks under five seeds each are five observations", "[results]")
     trials.back().task = std::to_string(i % 5);
   }
   const std::vector<std::string> shares{"done"};
-  const MetricSummary done = summarise(example_metrics(), trials, shares)[0].metrics[0];
-  CHECK(done.tasks == 5);
+  const MetricSummary done = summarise(example_metrics(), trials, {shares})[0].metrics[0];
+  CHECK(done.n == 5);
   CHECK(done.defined == 25);
   CHECK(done.mean == Approx(0.96));
 
@@ -63,21 +63,55 @@ TEST_CASE("five tasks under five seeds each are five observations", "[results]")
       means.push_back(example_trial(i, "A", i, 40.0, 0.5));
       means.back().values[0].value = i < 2 ? 0.9 : 1.0;
     }
-    const MetricSummary same = summarise(example_metrics(), means, shares)[0].metrics[0];
+    const MetricSummary same = summarise(example_metrics(), means, {shares})[0].metrics[0];
     CHECK(same.interval.low == Approx(done.interval.low));
     CHECK(same.interval.high == Approx(done.interval.high));
   }
 }
 
-TEST_CASE("crowds that meet the only task of a world are observations", "[results]") {
+TEST_CASE("crowds that meet listed tasks are observations", "[results]") {
   std::vector<TrialRecord> trials;
   for (std::uint32_t i = 0; i < 20; ++i) {
     trials.push_back(example_trial(i, "A", i, 40.0, 0.5));
     trials.back().task = "listed";
+    trials.back().task_is_drawn = false;
   }
-  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 20);
-  trials.back().task = "another";  // now tasks are, with their crowds
-  CHECK(summarise(example_metrics(), trials, {})[0].metrics[0].tasks == 2);
+  const auto time_of = [&] { return summarise(example_metrics(), trials, {})[0].metrics[1]; };
+  CHECK(time_of().n == 20);
+  CHECK(met_words(time_of().met) == "one task, 20 crowds");
+  const std::vector<std::string> of_plans{"time"};
+  const MetricSummary of_plan = summarise(example_metrics(), trials, {{}, of_plans})[0].metrics[1];
+  CHECK(of_plan.n == 1);  // one plan, copied
+  CHECK(std::isnan(of_plan.interval.low));
+
+  SECTION("of several worlds, too") {
+    for (const char* world : {"library", "office"})
+      for (std::uint32_t i = 0; i < 20; ++i) {
+        trials.push_back(trials[i]);
+        trials.back().scenario = world;
+      }
+    CHECK(met_words(met_by_all(trials)) == "3 tasks x 20 crowds");
+    CHECK(observation_name(met_by_all(trials)) == "crowd");
+  }
+  SECTION("and where tasks are drawn, each is one with all its crowds") {
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      trials[i].task = "drawn " + std::to_string(i % 10);
+      trials[i].task_is_drawn = true;
+    }
+    CHECK(time_of().n == 10);
+    CHECK(met_words(time_of().met) == "10 drawn tasks x 2 crowds");
+    CHECK(observation_name(time_of().met) == "task");
+  }
+}
+
+TEST_CASE("what trials have met has words", "[results]") {
+  CHECK(met_words({1, 0, 1, 1, true}) == "one task, one crowd");
+  CHECK(met_words({40, 40, 40, 40, true}) == "40 drawn tasks");
+  CHECK(met_words({1, 1, 1, 1, true}) == "one drawn task");
+  CHECK(met_words({2, 0, 30, 30, true}) == "2 tasks x 15 crowds");
+  CHECK(met_words({2, 0, 31, 31, true}) == "2 tasks, 31 crowds");
+  CHECK(met_words({43, 40, 100, 100, true}) == "43 tasks, 40 of them drawn, 100 crowds");
+  CHECK(met_words({1, 0, 20, 20, false}) == "one task, 20 seeds");
 }
 
 TEST_CASE("failed trials count in metrics that count failures", "[results]") {
@@ -86,7 +120,7 @@ TEST_CASE("failed trials count in metrics that count failures", "[results]") {
   trials.back().outcome = trial_outcome::fault;
   trials.back().values.clear();  // a trial that ended in a fault has none
   const std::vector<std::string> failure_metrics{"done"};
-  const auto summaries = summarise(example_metrics(), trials, failure_metrics);
+  const auto summaries = summarise(example_metrics(), trials, {failure_metrics});
   const MetricSummary& done = summaries[0].metrics[0];  // 1, 0.5, 0
   CHECK(done.defined == 3);
   CHECK(done.mean == 0.5);
@@ -98,10 +132,11 @@ TEST_CASE("summary.csv has a line for each combination and metric", "[results]")
   const std::vector<MetricColumn> metrics{example_metrics()[1], example_metrics()[5]};
   const std::vector<TrialRecord> trials{example_trial(0, "A", 0, 40.0, 0.5), example_trial(1, "A", 1, 40.0, 0.5)};
   CHECK(summary_csv(metrics, summarise(metrics, trials, {})) ==
-        "scenario,robots,global_planner,local_controller,pedestrian_model,metric,unit,n,n_defined,mean,sd,median,"
+        "scenario,robots,global_planner,local_controller,pedestrian_model,metric,unit,tasks,crowds,n,n_defined,mean,sd,"
+        "median,"
         "ci_low,ci_high,paper_mean,paper_n,paper_trimmed_all_nonzero,trials\n"
-        "mall,2,A,DWA,crowd,time,s,2,2,40,0,40,,,40,2,0,2\n"
-        "mall,2,A,DWA,crowd,cpu,ms,0,0,,,,,,,0,0,2\n");
+        "mall,2,A,DWA,crowd,time,s,2,2,2,2,40,0,40,,,40,2,0,2\n"
+        "mall,2,A,DWA,crowd,cpu,ms,0,0,0,0,,,,,,,0,0,2\n");
 }
 
 TEST_CASE("layouts are checked", "[results]") {

@@ -98,12 +98,11 @@ TEST_CASE("two labels for one controller are the same", "[ranking]") {
   const Answer answer = answer_of(trials);
   CHECK(order_of(answer) == Names{"one", "two"});
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
-  CHECK_FALSE(tasks_needed(answer, 0.05));  // nothing deviates
-  CHECK_THAT(answer_lines(answer, {}).front(),
-             Contains("the best of these is among P + one and P + two (as the first in every trial). First: P + one"));
+  CHECK_FALSE(observations_needed(answer, 0.05));  // nothing deviates
+  CHECK_THAT(answer_lines(answer, {}).front(), Contains("All 2 are equal in every trial: safe "));
 }
 
-TEST_CASE("fewer than five tasks tell nothing apart, and say so", "[ranking]") {
+TEST_CASE("fewer than five observations are too few to rank, and say so", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "good", 4, always(both_arrive));
   add_trials(trials, "fails", 4, always(one_fails));
@@ -111,8 +110,8 @@ TEST_CASE("fewer than five tasks tell nothing apart, and say so", "[ranking]") {
   CHECK(order_of(answer) == Names{"good", "fails"});
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
   CHECK(std::isnan(answer.ranking[1].against[0].p));
-  CHECK_FALSE(tasks_needed(answer, 0.05));  // below ten
-  CHECK_THAT(answer_lines(answer, {}).front(), Contains("Fewer than 5 tasks tell nothing apart."));
+  CHECK_FALSE(observations_needed(answer, 0.05));  // below ten
+  CHECK_THAT(answer_lines(answer, {}).front(), Contains("are too few to rank anything."));
 }
 
 TEST_CASE("a rare failure does not make a combination worse", "[ranking]") {
@@ -124,11 +123,11 @@ TEST_CASE("a rare failure does not make a combination worse", "[ranking]") {
   CHECK(answer.ranking[1].standing == Standing::may_be_best);
   // sd of nineteen 0 and one -0.5: 0.1118, at a level of 0.05 / 2:
   // ((2.241 + 0.842) * 0.1118 / 0.05)^2 + 2.241^2 / 2 = 50.0
-  CHECK(tasks_needed(answer, 0.05).value() == 51);
-  CHECK(tasks_needed(answer, 0.1).value() < 20);
-  CHECK_THAT(lines_of(trials), Catch::VectorContains(std::string(
-                                   "A difference of 5 points in safe would show with about 51 tasks (from how the "
-                                   "pairs deviate).")));
+  CHECK(observations_needed(answer, 0.05).value() == 51);
+  CHECK(observations_needed(answer, 0.1).value() < 20);
+  CHECK_THAT(lines_of(trials).front(),
+             Contains("20 tasks exclude none of the 2. For a difference of 5 points in safe about 51 tasks are needed. "
+                      "Best so far: P + good: "));
 }
 
 TEST_CASE("who is faster but not as safe is not the better", "[ranking]") {
@@ -169,28 +168,41 @@ TEST_CASE("tasks are the observations, not the crowds that meet them", "[ranking
   add_trials(trials, "a", 20, with_pace(2.0));
   add_trials(trials, "b", 20, with_pace(2.5));
   SECTION("a task each") {
-    CHECK(answer_heading(answer_of(trials)) == "In this world, over 20 tasks");
+    CHECK(answer_heading(answer_of(trials)) == "20 drawn tasks in this world");
     CHECK(answer_of(trials).ranking[1].standing == Standing::worse);
   }
   SECTION("five tasks under four seeds each are five observations") {
     for (TrialRecord& trial : trials) trial.task = std::to_string(trial.repetition % 5);
     const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "In this world, over 5 tasks");
+    CHECK(answer_heading(answer) == "5 drawn tasks x 4 crowds in this world");
     CHECK(answer.ranking[1].against[1].over_tasks.n == 5);
     CHECK(answer.ranking[1].standing == Standing::may_be_best);  // 2^-4
+  }
+  SECTION("listed tasks are met by crowds, which say nothing of planners") {
+    for (TrialRecord& trial : trials) {
+      trial.task = "listed";
+      trial.task_is_drawn = false;
+    }
+    CHECK(answer_heading(answer_of(trials)) == "One task, 20 crowds (the same starts and goals in every trial)");
+    CHECK(answer_of(trials).n == 20);
+    CHECK_THAT(lines_of(trials).front(), Contains("With 95 % confidence P + a is the best"));
+    for (TrialRecord& trial : trials)
+      if (trial.local_controller == "b") trial.global_planner = "Q";
+    CHECK(lines_of(trials).front() == "These trials cannot compare planners: all have the same task.");
   }
   SECTION("a world is one task where its tasks are not known") {
     for (TrialRecord& trial : trials) {
       trial.task.clear();
+      trial.task_is_drawn = false;
       std::erase_if(trial.values, [](const MetricValue& value) { return value.metric == "way"; });
     }
     const Answer answer = answer_of(trials);
-    CHECK(answer_heading(answer) == "In this world, over 1 task");
+    CHECK(answer_heading(answer) == "One task, 20 crowds (the same starts and goals in every trial)");
     CHECK(answer.criteria.size() == 1);  // no time without ways
   }
   SECTION("a trial that ended in a fault has the task of its seed") {
     trials[3].task.clear();
-    CHECK(answer_of(trials).tasks == 20);
+    CHECK(answer_of(trials).n == 20);
   }
   SECTION("numbers of robots that share a seed are parts of its task") {
     for (std::size_t i = 0; i < 40; ++i) {
@@ -200,7 +212,38 @@ TEST_CASE("tasks are the observations, not the crowds that meet them", "[ranking
     }
     const auto found = answers_of(trials);
     REQUIRE(found.size() == 3);
-    CHECK(found.front().tasks == 20);
+    CHECK(found.front().n == 20);
+  }
+}
+
+TEST_CASE("where entries are a product, each factor has its effect", "[ranking]") {
+  std::vector<TrialRecord> trials;
+  for (const char* planner : {"P", "Q"})
+    for (const char* controller : {"good", "fine", "bad"})
+      for (std::uint32_t i = 0; i < 20; ++i) {
+        const bool fails = *controller == 'b' && i % 3 == 0;
+        trials.push_back(ranking_trial(planner, controller, i, fails ? one_fails : both_arrive));
+        trials.back().plan_sha256 = planner;
+      }
+  const Answer answer = answer_of(trials);
+  REQUIRE(answer.factors.size() == 2);
+  CHECK(std::string(answer.factors[0].factor) == "controller");
+  CHECK(answer.factors[0].levels == Names{"good", "fine", "bad"});
+  CHECK(answer.factors[0].effects[2].mean == Approx(-7.0 / 20.0 * 0.5));
+  CHECK_THAT(lines_of(trials)[0], Contains("Controllers, each with all 2 planners: in safe, good 0.09 [") &&
+                                      Contains("bad 0.17 [") && Contains("] below the others."));
+  CHECK(lines_of(trials)[1] == "Planners, each with all 3 controllers: the same safe in every trial.");
+
+  SECTION("and planners whose trials are the same are one entry") {
+    for (TrialRecord& trial : trials) trial.plan_sha256 = "the same";
+    CHECK(answer_of(trials).ranking.size() == 3);
+    CHECK(answer_of(trials).ranking[0].same_as == Names{"Q"});
+    CHECK_THAT(lines_of(trials)[2], Contains("P + good (and Q, the same in every trial)"));
+  }
+  SECTION("but not where a combination is missing") {
+    std::erase_if(trials,
+                  [](const TrialRecord& one) { return one.global_planner == "Q" && one.local_controller == "bad"; });
+    CHECK(answer_of(trials).factors.empty());
   }
 }
 
@@ -211,7 +254,7 @@ TEST_CASE("five worlds allow a statement in general, with each as one observatio
   for (const std::uint32_t worlds : {4u, 8u}) {
     spread_over_worlds(trials, worlds);
     const Answer answer = answers_of(trials).front();
-    CHECK(answer_heading(answer) == "In these " + std::to_string(worlds) + " worlds, over 40 tasks");
+    CHECK(answer_heading(answer) == "40 drawn tasks in these " + std::to_string(worlds) + " worlds");
     CHECK(answer.in_general == (worlds >= 5));
     const std::vector<std::string> lines = answer_lines(answer, {});
     CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
@@ -257,7 +300,7 @@ TEST_CASE("several scenarios have an answer each, and one together", "[ranking]"
   trials.insert(trials.end(), office.begin(), office.end());
   const auto found = answers_of(trials);
   REQUIRE(found.size() == 3);
-  CHECK(answer_heading(found[0]) == "In these 2 worlds, over 20 tasks");
+  CHECK(answer_heading(found[0]) == "20 drawn tasks in these 2 worlds");
   CHECK(found[0].ranking[1].standing == Standing::may_be_best);
   CHECK(order_of(found[1]) == Names{"a", "b"});
   CHECK(order_of(found[2]) == Names{"b", "a"});
@@ -324,7 +367,7 @@ TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
   const std::vector<Answer> found = answers_of(trials);
   REQUIRE(found.size() == 3);  // over both, and for each
   CHECK(found[0].cells.size() == 2);
-  CHECK(found[0].tasks == 6);
+  CHECK(found[0].n == 6);
 }
 
 TEST_CASE("orders that a sibling of the first share turns round are flagged", "[ranking]") {
@@ -367,21 +410,6 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
     metrics.erase(metrics.begin() + 1);
     CHECK(answers(ranking_layout(), metrics, trials).front().flips.empty());
   }
-}
-
-TEST_CASE("the answer says where tasks leave no room for differences", "[ranking]") {
-  const auto line_of = [&](const std::vector<RobotResult>& robots, std::uint32_t tasks) -> std::string {
-    std::vector<TrialRecord> trials;
-    for (const char* name : {"a", "b"}) add_trials(trials, name, tasks, always(robots));
-    for (const std::string& line : lines_of(trials))
-      if (line.starts_with("The tasks ")) return line;
-    return "";
-  };
-  const std::vector<RobotResult> none_arrives(2, {std::nullopt, true, 10.0});
-  CHECK(line_of(one_fails, 12).empty());
-  CHECK(line_of(both_arrive, 12) == "The tasks are too easy to tell combinations apart by safe: its mean is 1.00.");
-  CHECK(line_of(none_arrives, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
-  CHECK(line_of(none_arrives, 9).empty());
 }
 
 }  // namespace answer_test

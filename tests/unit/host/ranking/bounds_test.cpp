@@ -27,7 +27,7 @@ struct Summarised {
   std::vector<CombinationSummary> summaries;
 
   explicit Summarised(const std::vector<TrialRecord>& trials, const Bounds& bounds = {"low", "high"}) {
-    summaries = summarise(metrics, trials, ranking_layout().counts_failures);
+    summaries = summarise(metrics, trials, {ranking_layout().counts_failures});
     add_places(bounds, ranking_layout(), trials, metrics, summaries);
   }
 

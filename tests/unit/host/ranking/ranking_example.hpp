@@ -52,6 +52,7 @@ inline host::TrialRecord ranking_trial(const std::string& planner, const std::st
   trial.repetition = repetition;
   trial.seed = 1000 + repetition;
   trial.task = "task " + std::to_string(repetition);
+  trial.task_is_drawn = true;
   double done = 0.0;
   double safe = 0.0;
   double untouched = 0.0;

@@ -29,9 +29,9 @@ TEST_CASE("trials.csv has a line for each trial and a column for each metric", "
   const std::vector<TrialRecord> trials{curved, example_trial(4, "C", 1, 41.5, 0.5)};
   CHECK(trials_csv(example_metrics(), trials) ==
         "trial,scenario,robots,global_planner,local_controller,pedestrian_model,repetition,seed,outcome,repeatable,"
-        "sim_time_s,wall_time_s,task,done,time,speed,speed_sd,touches,cpu\n"
-        "1,mall,2,\"A, B\",DWA,crowd,0,1000,failed,1,180,0.125,task 0,0.5,,0.30000000000000004,0.17,0,\n"
-        "4,mall,2,C,DWA,crowd,1,1001,succeeded,1,41.5,0.125,task 1,1,41.5,0.5,0.17,0,\n");
+        "sim_time_s,wall_time_s,task,task_is_drawn,done,time,speed,speed_sd,touches,cpu\n"
+        "1,mall,2,\"A, B\",DWA,crowd,0,1000,failed,1,180,0.125,task 0,1,0.5,,0.30000000000000004,0.17,0,\n"
+        "4,mall,2,C,DWA,crowd,1,1001,succeeded,1,41.5,0.125,task 1,1,1,41.5,0.5,0.17,0,\n");
 }
 
 TEST_CASE("each swept key is a column of trials.csv and summary.csv", "[results]") {
@@ -39,9 +39,10 @@ TEST_CASE("each swept key is a column of trials.csv and summary.csv", "[results]
   trials[0].swept = {{"", "people", "6"}, {"simulation", "tracking", "none"}};
   trials[1].swept = {{"", "people", "12"}, {"global_planner", "weight", "1.5"}};
   const std::string csv = trials_csv(example_metrics(), trials);
-  CHECK_THAT(csv, Catch::Contains(",wall_time_s,task,people,simulation.tracking,global_planner.weight,done,"));
-  CHECK_THAT(csv, Catch::Contains(",0.125,task 0,6,none,,1,41.5,"));
-  CHECK_THAT(csv, Catch::Contains(",0.125,task 0,12,,1.5,1,41.5,"));
+  CHECK_THAT(csv,
+             Catch::Contains(",wall_time_s,task,task_is_drawn,people,simulation.tracking,global_planner.weight,done,"));
+  CHECK_THAT(csv, Catch::Contains(",0.125,task 0,1,6,none,,1,41.5,"));
+  CHECK_THAT(csv, Catch::Contains(",0.125,task 0,1,12,,1.5,1,41.5,"));
   const std::string summary = summary_csv(example_metrics(), summarise(example_metrics(), trials, {}));
   CHECK_THAT(summary, Catch::Contains(",pedestrian_model,people,simulation.tracking,global_planner.weight,metric,"));
   CHECK_THAT(summary, Catch::Contains("mall,2,B,DWA,crowd,12,,1.5,done,"));

@@ -68,6 +68,7 @@ inline host::TrialRecord example_trial(std::uint64_t id, const std::string& plan
   trial.sim_time_s = time.value_or(180.0);
   trial.wall_time_s = 0.125;
   trial.task = "task " + std::to_string(repetition);
+  trial.task_is_drawn = true;
   trial.values = {system_number("done", time ? 1.0 : 0.5),
                   {"done", DMRP_SUBJECT_ROBOT, 0, std::nullopt, 1.0},
                   {"done", DMRP_SUBJECT_ROBOT, 1, std::nullopt, time ? 1.0 : 0.0},

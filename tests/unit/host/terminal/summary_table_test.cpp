@@ -78,11 +78,11 @@ TEST_CASE("a legend explains what is shown", "[terminal]") {
   layout.columns[2].legend = "of a metric that was not measured";
   const auto metrics = example_metrics();
   const auto summaries = summarise(metrics, two_planners(), {});
-  CHECK(table_legend(layout, metrics, summaries, {}, {}) ==
-        "  means over 2 tasks · speed: mean over time · ±: deviation over time\n");
-  CHECK(
-      table_legend(layout, metrics, summaries, two_marks(), {36, false}) ==
-      "  means over 2 tasks · speed: mean\n    over time · ±: deviation over\n    time · *: better than all others\n");
+  CHECK(table_legend(layout, metrics, met_by_all(two_planners()), {}, {}) ==
+        "  means over 2 drawn tasks · speed: mean over time · ±: deviation over time\n");
+  CHECK(table_legend(layout, metrics, met_by_all(two_planners()), two_marks(), {36, false}) ==
+        "  means over 2 drawn tasks · speed:\n    mean over time · ±: deviation\n    over time · *: better than all\n  "
+        "  others\n");
 }
 
 TEST_CASE("shares have their intervals, from two observations on", "[terminal]") {
@@ -91,7 +91,7 @@ TEST_CASE("shares have their intervals, from two observations on", "[terminal]")
   const auto metrics = example_metrics();
   auto trials = two_planners();
   const auto table = [&] {
-    return summary_table(layout, metrics, summarise(metrics, trials, layout.counts_failures), {}, {});
+    return summary_table(layout, metrics, summarise(metrics, trials, {layout.counts_failures}), {}, {});
   };
   CHECK_THAT(table(), Catch::Contains("CBS + DWA   1.00 [0."));
   std::erase_if(trials, [](const TrialRecord& trial) { return trial.repetition > 0; });
