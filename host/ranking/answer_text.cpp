@@ -146,17 +146,6 @@ std::string flip_line(const Answer& answer) {
   return fmt::format("The order depends on whose fault contacts are: {}.", list_words(pairs));
 }
 
-// Whether these tasks leave room for differences; "" where they do, or where there are too few to say.
-std::string tasks_line(const Answer& answer) {
-  constexpr double least_mean_share = 0.3;
-  constexpr double most_mean_share = 0.9;
-  double mean = 0.0;
-  for (const RankedCombination& one : answer.ranking) mean += one.means[0] / static_cast<double>(answer.ranking.size());
-  if (answer.tasks < least_for_deviation || (mean >= least_mean_share && mean <= most_mean_share)) return "";
-  return fmt::format("The tasks are too {} to tell combinations apart by {}: its mean is {:.2f}.",
-                     mean < least_mean_share ? "hard" : "easy", answer.criteria.front().name, mean);
-}
-
 }  // namespace
 
 std::string difference_words(const Answer& answer, const RankedCombination& one, std::size_t criterion) {
@@ -188,7 +177,6 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   if (worse != answer.ranking.rend()) add(cause_line(answer, *worse, failures));
   add(pareto_line(answer));
   if (!answer.flips.empty()) add(flip_line(answer));
-  add(tasks_line(answer));
   if (const auto needed = tasks_needed(answer, tolerated_share))
     add(fmt::format("A difference of 5 points in {} would show with about {} (from how the pairs deviate).",
                     answer.criteria.front().name, counted(*needed, "task")));

@@ -136,15 +136,4 @@ std::string combination_name(std::span<const GradedSeries> all, const GradedResu
   return name;
 }
 
-bool tells_apart(const GradedSeries& series) {
-  for (std::size_t level = 0; level < series.levels.size(); ++level) {
-    std::vector<double> means;
-    for (const GradedResult& result : series.results)
-      if (!std::isnan(result.means[level])) means.push_back(result.means[level]);
-    if (means.empty()) continue;
-    if (const double mean = core::mean(means); mean >= 0.2 && mean <= 0.8) return true;
-  }
-  return false;
-}
-
 }  // namespace dmrp::host

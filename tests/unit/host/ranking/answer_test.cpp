@@ -369,19 +369,4 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
   }
 }
 
-TEST_CASE("the answer says where tasks leave no room for differences", "[ranking]") {
-  const auto line_of = [&](const std::vector<RobotResult>& robots, std::uint32_t tasks) -> std::string {
-    std::vector<TrialRecord> trials;
-    for (const char* name : {"a", "b"}) add_trials(trials, name, tasks, always(robots));
-    for (const std::string& line : lines_of(trials))
-      if (line.starts_with("The tasks ")) return line;
-    return "";
-  };
-  const std::vector<RobotResult> none_arrives(2, {std::nullopt, true, 10.0});
-  CHECK(line_of(one_fails, 12).empty());
-  CHECK(line_of(both_arrive, 12) == "The tasks are too easy to tell combinations apart by safe: its mean is 1.00.");
-  CHECK(line_of(none_arrives, 12) == "The tasks are too hard to tell combinations apart by safe: its mean is 0.00.");
-  CHECK(line_of(none_arrives, 9).empty());
-}
-
 }  // namespace answer_test
