@@ -52,9 +52,9 @@ void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const
     count(cause, 1, trial.id);
     if (event.robots.size() > 1 && roots.emplace(cause.cause, event.robots[1]).second) ++cause.roots;
   }
-  if (layout.answer.shares.empty()) return;
+  if (layout.answer.safe.empty()) return;
   const auto arrived = robots_with(trial, layout.arrived, 1.0);
-  for (const std::uint64_t robot : robots_with(trial, layout.answer.shares.front(), 0.0))
+  for (const std::uint64_t robot : robots_with(trial, layout.answer.safe, 0.0))
     if (std::binary_search(arrived.begin(), arrived.end(), robot)) count(failures.contact, 1, trial.id);
 }
 

@@ -91,8 +91,8 @@ std::string shown(const GradedSeries& series, const core::Threshold& end) {
 
 std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<const ScenarioFacts> scenarios,
                                         std::span<const TrialRecord> trials) {
-  if (layout.answer.shares.empty()) return {};
-  const std::string& share = layout.answer.shares.front();
+  const std::string& share = layout.answer.safe;
+  if (share.empty()) return {};
   std::vector<GradedSeries> all = empty_series(scenarios);
   for (GradedSeries& series : all) {
     std::vector<Collected> collected;
