@@ -121,7 +121,8 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
     cell.global_planner = cell.local_controller = "";
     if (std::find(answer.cells.begin(), answer.cells.end(), cell) == answer.cells.end()) continue;
     robots += other.robots;
-    for (const FailureCause& cause : other.causes) add_cause(causes, cause);
+    for (const FailureCause& cause : other.causes)
+      if (!is_exclusion(cause.cause)) add_cause(causes, cause);
     add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials, 0});
   }
   std::uint32_t unsafe = 0;

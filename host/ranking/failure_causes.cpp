@@ -74,6 +74,16 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
   return failures;
 }
 
+bool is_exclusion(std::string_view cause) {
+  return cause.starts_with("excluded for ");
+}
+
+std::uint32_t excluded_robots(const std::string& arrived, const TrialRecord& trial) {
+  return static_cast<std::uint32_t>(
+      std::count_if(trial.events.begin(), trial.events.end(),
+                    [&](const MetricEvent& one) { return one.metric == arrived && is_exclusion(cause_of(one)); }));
+}
+
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause) {
   FailureCause& sum = found_or_added(causes, cause.cause);
   sum.robots += cause.robots;
@@ -96,6 +106,7 @@ std::string failures_line(std::span<const CombinationFailures> failures) {
   std::uint32_t robots = 0;
   for (const CombinationFailures& one : failures)
     for (const FailureCause& cause : one.causes) {
+      if (is_exclusion(cause.cause)) continue;
       add_cause(causes, cause);
       robots += cause.robots;
     }

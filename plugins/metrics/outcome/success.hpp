@@ -2,6 +2,7 @@
 // success.hpp: robots that arrived, robots that did so without a contact at their fault, and how fast these were.
 #pragma once
 
+#include "metrics/measure/contact_ends.hpp"
 #include "metrics/measure/contact_fault.hpp"
 #include "metrics/measure/values.hpp"
 #include "metrics/outcome/shortest_way.hpp"
@@ -40,9 +41,11 @@ class Success final : public Metric {
   void begin(const MetricTrial&) override {
     at_fault_.assign(world().robots().size(), false);
     touched_.assign(world().robots().size(), false);
+    contacts_.begin(world().robots().size());
   }
 
   void observe(const Sample& sample) override {
+    contacts_.observe(sample);
     for (const Contact& contact : sample.contacts) {
       if (!is_known(contact)) continue;
       touched_[contact.a] = true;
@@ -61,10 +64,12 @@ class Success final : public Metric {
       safe_success.push_back(succeeded(own) && !at_fault_[robot] ? 1.0 : 0.0);
       contact_free_success.push_back(succeeded(own) && !touched_[robot] ? 1.0 : 0.0);
       if (succeeded(own)) continue;
+      const bool by_contact = contacts_.failed_by_contact(robot, own);
       std::vector<std::uint32_t> robots = {robot};  // and the culprit
-      if (own.culprit < end.robots.size()) robots.push_back(own.culprit);
+      if (!by_contact && own.culprit < end.robots.size()) robots.push_back(own.culprit);
       give_event(sink, "success", {end.t_ns, end.t_ns}, robots,
-                 "robot " + std::to_string(robot) + " failed: " + reason(own.failure));
+                 "robot " + std::to_string(robot) + " failed: " +
+                     (by_contact ? reason_of_contact(contacts_.last_contact(robot)) : reason(own.failure)));
     }
     give(sink, "success", &mean_of_defined, success);
     sink.system("trial_success", least_of_defined(success));
@@ -89,12 +94,18 @@ class Success final : public Metric {
   // NaN stays NaN.
   static double most_one(double value) { return value > 1.0 ? 1.0 : value; }
 
+  static const char* reason_of_contact(std::uint32_t kind) {
+    return kind == DMRP_CONTACT_ROBOT    ? "stood after hitting another robot"
+           : kind == DMRP_CONTACT_PERSON ? "stood after hitting a person"
+                                         : "stood after hitting a wall or furniture";
+  }
+
   static const char* reason(std::uint32_t failure) {
     switch (failure) {
       case DMRP_FAILURE_TIMEOUT:
         return "time limit";
       case DMRP_FAILURE_OSCILLATION:
-        return "oscillation";
+        return "excluded for oscillation";
       case DMRP_FAILURE_CONTROLLER:
         return "no command from its controller";
       case DMRP_FAILURE_NO_PLAN:
@@ -115,6 +126,7 @@ class Success final : public Metric {
   }
 
   const dmrp_walking_grid* walking_grid_ = nullptr;
+  ContactEnds contacts_;
   std::vector<char> at_fault_;  // by robot: whether it had a contact at its fault
   std::vector<char> touched_;   // by robot: whether it had any contact
 };

@@ -6,6 +6,12 @@ function sum(values) {
   return values.reduce((total, value) => total + (value || 0), 0);
 }
 
+// Robots that arrived, but do not count as arrived.
+function excluded(data) {
+  const causes = data.failures.flatMap((row) => row.causes).filter((one) => one.cause.startsWith('excluded for '));
+  return sum(causes.map((one) => one.robots));
+}
+
 // Totals over all trials that ran. The layout names the metrics for arrivals and contacts.
 export function tally(data) {
   const {trials, values, combinations, run} = data;
@@ -23,7 +29,8 @@ export function tally(data) {
     failed_trials: ran.filter((i) => trials.outcome[i] === 'failed').length,
     not_repeatable: ran.filter((i) => !trials.repeatable[i]).length,
     robots: sum(known(arrived).map(robots)),
-    arrived: Math.round(sum(known(arrived).map((i) => values[arrived][i] * robots(i)))),
+    arrived: Math.round(sum(known(arrived).map((i) => values[arrived][i] * robots(i)))) + excluded(data),
+    excluded: excluded(data),
     contacts: known(contacts).length ? sum(known(contacts).map((i) => values[contacts][i])) : null,
     simulated_s: sum(ran.map((i) => trials.sim_time_s[i])),
     wall_s: sum(ran.map((i) => trials.wall_time_s[i])),
@@ -97,6 +104,14 @@ export function lines(data) {
       'failures'
     );
   if (t.unsupported > 0)
+  if (t.excluded > 0)
+    add(
+      'note',
+      `${t.arrived} of ${t.robots} robots arrived; ${t.excluded} of them ${
+        t.excluded === 1 ? 'is' : 'are'
+      } excluded for oscillation.`,
+      'failures'
+    );
     add('note', `${numbers.counted(t.unsupported, 'trial')} left out: a plugin says that they are not for it.`);
   if (data.standstills_line) add('note', `${data.standstills_line}.`);
   if (found.length === 0) add('good', all_well(t));

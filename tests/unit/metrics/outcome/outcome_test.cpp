@@ -31,7 +31,7 @@ TEST_CASE("success is the share of robots that arrived and were not failed") {
   CHECK(m.events[0].text == "robot 1 failed: time limit");
   CHECK(m.events[0].robots == std::vector<std::uint32_t>{1});
   CHECK(m.events[0].from_s == 10.0);
-  CHECK(m.events[1].text == "robot 2 failed: oscillation");
+  CHECK(m.events[1].text == "robot 2 failed: excluded for oscillation");
 }
 
 TEST_CASE("people nearby is the time average of the count around active robots") {
