@@ -82,8 +82,9 @@ export function lines(data) {
   if (grown.length > 0)
     add(
       'warning',
-      `Continued with more trials than it was begun with (${[...grown, data.run.repetitions].join(', then ')} of each ` +
-        'combination): intervals and p values hold for a number that was set before results were seen.'
+      `You added trials after seeing results (${[...grown, data.run.repetitions].join(
+        ', then '
+      )}): treat p values as exploratory.`
     );
   if (t.not_repeatable > 0)
     add(
@@ -103,7 +104,6 @@ export function lines(data) {
       )}${causes_words(data)}.`,
       'failures'
     );
-  if (t.unsupported > 0)
   if (t.excluded > 0)
     add(
       'note',
@@ -112,6 +112,7 @@ export function lines(data) {
       } excluded for oscillation.`,
       'failures'
     );
+  if (t.unsupported > 0)
     add('note', `${numbers.counted(t.unsupported, 'trial')} left out: a plugin says that they are not for it.`);
   if (data.standstills_line) add('note', `${data.standstills_line}.`);
   if (found.length === 0) add('good', all_well(t));
