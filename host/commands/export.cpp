@@ -108,19 +108,20 @@ void check_metrics(const std::vector<std::string>& chosen, std::span<const Metri
       throw InputError(fmt::format("--metric: '{}' was not measured{}", name, did_you_mean(name, known)));
 }
 
-TableSpec spec_of(const ExportOptions& options, const std::string& layout) {
+TableSpec spec_of(const ExportOptions& options, const ReportRun& run, const std::string& layout) {
   TableSpec spec{"results", "Results", labels_of("--rows", options.rows), labels_of("--columns", options.columns), {}};
   if (spec.rows.empty()) spec.rows = {Label::global_planner, Label::local_controller};
   std::vector<std::string> metrics = options.metrics;
   if (metrics.empty()) metrics = {"success"};
   for (const std::string& metric : metrics) spec.metrics.push_back(column_of(layout, metric));
+  spec.people = people_counts(run.manifest.experiment.scenarios);
   return spec;
 }
 
 std::string latex(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
   const bool own = !options.rows.empty() || !options.columns.empty() || !options.metrics.empty();
   const std::vector<TableSpec> specs =
-      own ? std::vector{spec_of(options, layouts.report.json)} : layout_tables(layouts.report.json, run.trials);
+      own ? std::vector{spec_of(options, run, layouts.report.json)} : layout_tables(layouts.report.json, run.trials);
   std::string text = "% dmrp-host export --latex. Needs \\usepackage{booktabs}.\n";
   for (const TableSpec& spec : specs)
     text += latex_table(make_mean_table(spec, layouts.summary, run.metrics, run.trials)) + "\n";
@@ -128,7 +129,7 @@ std::string latex(const ExportOptions& options, const ReportRun& run, const Repo
 }
 
 TableSpec chosen_table(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
-  if (options.table == own_table) return spec_of(options, layouts.report.json);
+  if (options.table == own_table) return spec_of(options, run, layouts.report.json);
   std::vector<std::string> known = {own_table};
   for (TableSpec& spec : layout_tables(layouts.report.json, run.trials)) {
     if (spec.id == options.table) return std::move(spec);
@@ -198,7 +199,7 @@ int export_command(const ExportOptions& options) {
   } else if (options.format == ExportFormat::table) {
     text = table_svg(options, run, layouts);
   } else {
-    const RunSettings settings(run.effective_toml, run.trials);
+    const RunSettings settings(run.effective_toml, run.trials, people_counts(run.manifest.experiment.scenarios));
     text = options.format == ExportFormat::csv
                ? trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings)
                : figure(options, run, layouts, settings);
@@ -244,10 +245,11 @@ void add_export(CLI::App& app) {
           "a table of the report as an SVG figure: plans, driving, ...; own: one of --rows and --columns")
       ->type_name("NAME");
   formats->require_option(1);
-  command->add_option("--rows", options->rows, "scenario, robots, planner, controller, people")->delimiter(',');
+  command->add_option("--rows", options->rows, "scenario, robots, people, planner, controller, pedestrian_model")
+      ->delimiter(',');
   command->add_option("--columns", options->columns, "the same, across")->delimiter(',');
   command->add_option("--metric", options->metrics, "only these metrics")->delimiter(',')->type_name("NAME");
-  command->add_option("--over", options->over, "robots, or a parameter or setting as --csv names it")
+  command->add_option("--over", options->over, "robots, people, or a parameter or setting as --csv names it")
       ->needs(svg)
       ->capture_default_str()
       ->type_name("NAME");

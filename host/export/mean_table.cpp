@@ -15,15 +15,25 @@
 namespace dmrp::host {
 namespace {
 
-// Empties the labels that are not in either list.
-CombinationLabels only(const CombinationLabels& all, const std::vector<Label>& labels) {
+// What trials of a row, or of a column, agree in.
+struct Agreement {
+  CombinationLabels labels;
+  std::optional<std::uint32_t> people;
+
+  bool operator==(const Agreement& other) const { return labels == other.labels && people == other.people; }
+};
+
+// In these labels alone.
+Agreement agreement(const TrialRecord& trial, const std::vector<Label>& labels, const PeopleCounts& people) {
   const auto has = [&](Label label) { return std::find(labels.begin(), labels.end(), label) != labels.end(); };
-  CombinationLabels some;
-  if (has(Label::scenario)) some.scenario = all.scenario;
-  if (has(Label::robots)) some.robots = all.robots;
-  if (has(Label::global_planner)) some.global_planner = all.global_planner;
-  if (has(Label::local_controller)) some.local_controller = all.local_controller;
-  if (has(Label::pedestrian_model)) some.pedestrian_model = all.pedestrian_model;
+  const CombinationLabels all = combination_of(trial);
+  Agreement some;
+  if (has(Label::scenario)) some.labels.scenario = all.scenario;
+  if (has(Label::robots)) some.labels.robots = all.robots;
+  if (has(Label::people)) some.people = people_in(people, trial);
+  if (has(Label::global_planner)) some.labels.global_planner = all.global_planner;
+  if (has(Label::local_controller)) some.labels.local_controller = all.local_controller;
+  if (has(Label::pedestrian_model)) some.labels.pedestrian_model = all.pedestrian_model;
   return some;
 }
 
@@ -35,23 +45,25 @@ void append(std::string& words, const std::string& separator, const std::string&
   if (!word.empty()) words += (words.empty() ? "" : separator) + word;
 }
 
-std::string place_of(const CombinationLabels& labels) {
-  std::string words = labels.scenario;
-  if (labels.robots > 0) append(words, ", ", robots_words(labels.robots));
+std::string place_of(const Agreement& trials) {
+  std::string words = trials.labels.scenario;
+  if (trials.labels.robots > 0) append(words, ", ", robots_words(trials.labels.robots));
+  if (trials.people)
+    append(words, ", ", std::to_string(*trials.people) + (*trials.people == 1 ? " person" : " people"));
   return words;
 }
 
-std::string name_of(const CombinationLabels& labels) {
-  std::string words = labels.global_planner;
-  append(words, " + ", labels.local_controller);
-  append(words, " + ", labels.pedestrian_model);
+std::string name_of(const Agreement& trials) {
+  std::string words = trials.labels.global_planner;
+  append(words, " + ", trials.labels.local_controller);
+  append(words, " + ", trials.labels.pedestrian_model);
   return words;
 }
 
-std::size_t index_in(std::vector<CombinationLabels>& list, const CombinationLabels& labels) {
-  const auto found = std::find(list.begin(), list.end(), labels);
+std::size_t index_in(std::vector<Agreement>& list, const Agreement& trials) {
+  const auto found = std::find(list.begin(), list.end(), trials);
   const auto index = static_cast<std::size_t>(found - list.begin());
-  if (found == list.end()) list.push_back(labels);
+  if (found == list.end()) list.push_back(trials);
   return index;
 }
 
@@ -135,7 +147,7 @@ class SolvedTasks {
   using Task = std::tuple<std::string, std::uint32_t, std::uint64_t>;
   static Task task_of(const TrialRecord& trial) { return {trial.scenario, trial.robots, trial.seed}; }
   std::string row_of(const TrialRecord& trial) const {
-    const CombinationLabels row = only(combination_of(trial), spec_.rows);
+    const Agreement row = agreement(trial, spec_.rows, spec_.people);
     return place_of(row) + "\n" + name_of(row);
   }
 
@@ -158,11 +170,14 @@ bool is_marked(const BestMark& mark, const std::string& metric, const std::vecto
 }  // namespace
 
 std::optional<Label> label_named(const std::string& name) {
-  static const std::map<std::string, Label> names = {
-      {"scenario", Label::scenario},           {"robots", Label::robots},
-      {"planner", Label::global_planner},      {"global_planner", Label::global_planner},
-      {"controller", Label::local_controller}, {"local_controller", Label::local_controller},
-      {"people", Label::pedestrian_model},     {"pedestrian_model", Label::pedestrian_model}};
+  static const std::map<std::string, Label> names = {{"scenario", Label::scenario},
+                                                     {"robots", Label::robots},
+                                                     {"planner", Label::global_planner},
+                                                     {"global_planner", Label::global_planner},
+                                                     {"controller", Label::local_controller},
+                                                     {"local_controller", Label::local_controller},
+                                                     {"people", Label::people},
+                                                     {"pedestrian_model", Label::pedestrian_model}};
   const auto found = names.find(name);
   return found == names.end() ? std::nullopt : std::optional(found->second);
 }
@@ -204,14 +219,13 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
   const SolvedTasks solved(spec, trials, planned);
   const bool solved_alone =
       by_controller && !has(Label::global_planner) && index_of(metrics, planned) && solved.matter();
-  std::vector<CombinationLabels> rows;
-  std::vector<CombinationLabels> columns;
+  std::vector<Agreement> rows;
+  std::vector<Agreement> columns;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (trials[i].robots == 0 || !has_result(trials[i])) continue;
-    const CombinationLabels labels = combination_of(trials[i]);
-    std::vector<std::size_t>& cell =
-        cells[{index_in(rows, only(labels, spec.rows)), index_in(columns, only(labels, spec.columns))}];
+    std::vector<std::size_t>& cell = cells[{index_in(rows, agreement(trials[i], spec.rows, spec.people)),
+                                            index_in(columns, agreement(trials[i], spec.columns, spec.people))}];
     if (!solved_alone || solved.hold(trials[i])) cell.push_back(i);
   }
 
@@ -226,7 +240,7 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
     const std::string& unit = metrics[*index_of(metrics, column.metric)].unit;
     table.units.push_back(unit == "1" ? "" : unit);
   }
-  for (const CombinationLabels& column : columns) {
+  for (const Agreement& column : columns) {
     std::string title = place_of(column);
     append(title, ", ", name_of(column));
     if (!spec.columns.empty()) table.spans.push_back(title);

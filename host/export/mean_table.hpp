@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/statistics/descriptive.hpp"
+#include "host/export/people_counts.hpp"
 #include "host/findings/findings.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/results/summary_layout.hpp"
@@ -16,11 +17,11 @@
 
 namespace dmrp::host {
 
-enum class Label { scenario, robots, global_planner, local_controller, pedestrian_model };
+enum class Label { scenario, robots, people, global_planner, local_controller, pedestrian_model };
 
 // "planner" and "global_planner" and so on; none if unknown.
 std::optional<Label> label_named(const std::string& name);
-inline constexpr const char* label_names = "scenario, robots, planner, controller, people";
+inline constexpr const char* label_names = "scenario, robots, people, planner, controller, pedestrian_model";
 
 // What a table shows. Trials that agree in the labels of rows and columns are averaged.
 struct TableSpec {
@@ -29,6 +30,7 @@ struct TableSpec {
   std::vector<Label> rows;
   std::vector<Label> columns;               // each of their values has all metrics; may be empty
   std::vector<SummaryTableColumn> metrics;  // without those that were not measured
+  PeopleCounts people{};                    // for Label::people
 };
 
 struct TableCell {

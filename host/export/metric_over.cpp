@@ -30,7 +30,9 @@ std::optional<double> x_of(const TrialRecord& trial, const std::string& over, co
 // The scenario's name without this swept value.
 std::string scenario_without(const std::string& over, const TrialRecord& trial) {
   std::vector<SweptValue> others = swept_of_scenario(trial);
-  std::erase_if(others, [&](const SweptValue& one) { return column_of(one) == over; });
+  std::erase_if(others, [&](const SweptValue& one) {
+    return column_of(one) == over || (over == "people" && column_of(one) == "people_times");
+  });
   return with_swept(world_name(trial), others);
 }
 

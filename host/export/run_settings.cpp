@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <sstream>
+#include <utility>
 
 #include "host/results/csv.hpp"
 
@@ -42,7 +43,8 @@ void flatten(const std::string& prefix, const toml::table& table,
 
 }  // namespace
 
-RunSettings::RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials) {
+RunSettings::RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials, PeopleCounts people)
+    : people_(std::move(people)) {
   const toml::table root = toml::parse(effective_toml);
   for (const std::string kind : kinds) {
     const toml::array* uses = root[kind].as_array();
@@ -67,10 +69,12 @@ RunSettings::RunSettings(std::string_view effective_toml, std::span<const TrialR
         add_name(name);
       });
   for (const std::string& name : swept_columns(trials)) add_name(name);
+  if (!people_.empty()) add_name("people");
 }
 
 std::string RunSettings::value(const std::string& name, const TrialRecord& trial) const {
   if (std::string swept = swept_value(trial.swept, name); !swept.empty()) return swept;
+  if (name == "people") return std::to_string(people_in(people_, trial));
   const std::string none;
   const CombinationLabels combination = combination_of(trial);
   for (const auto& [kind, of_label] : plugins_)

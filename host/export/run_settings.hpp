@@ -8,16 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "host/export/people_counts.hpp"
 #include "host/findings/summary.hpp"
 
 namespace dmrp::host {
 
 // Names are those of the file: "local_controller.sim_time", "simulation.step_s", "robot.lidar.beams"; swept
-// keys of [[scenario]] have their own: "people".
+// keys of [[scenario]] have their own. "people" is their number.
 class RunSettings {
  public:
   // Throws InputError or std::runtime_error if the text is damaged.
-  RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials);
+  RunSettings(std::string_view effective_toml, std::span<const TrialRecord> trials, PeopleCounts people = {});
 
   // All names: plugins of trials with their ids and parameters first, then settings.
   const std::vector<std::string>& names() const { return names_; }
@@ -34,6 +35,7 @@ class RunSettings {
   std::vector<std::string> names_;
   std::map<std::string, std::map<std::string, Values>> plugins_;  // by kind, then label
   Values settings_;
+  PeopleCounts people_;
 };
 
 }  // namespace dmrp::host

@@ -95,6 +95,7 @@ class Contest {
     answer.in_general = answer.worlds >= core::fewest_worlds_in_general;
     answer.criteria = measures_.criteria();
     answer.siblings = measures_.siblings();
+    answer.safe = measures_.safe().value_or(0);
   }
 
   // Main effects in the first criterion, where entries are a product.
@@ -207,9 +208,10 @@ class Contest {
     const std::vector<RankedCombination>& ranking = answer.ranking;
     for (std::size_t before = 0; before < ranking.size(); ++before)
       for (std::size_t behind = before + 1; behind < ranking.size(); ++behind)
-        if (ranking[before].means[0] > ranking[behind].means[0] + rounding &&
-            ranking[before].sibling_means[sibling] < ranking[behind].sibling_means[sibling] - rounding)
-          answer.flips.push_back({sibling, before, behind});
+        for (const auto& [a, b] : {std::pair(before, behind), std::pair(behind, before)})
+          if (ranking[a].means[answer.safe] > ranking[b].means[answer.safe] + rounding &&
+              ranking[a].sibling_means[sibling] < ranking[b].sibling_means[sibling] - rounding)
+            answer.flips.push_back({sibling, a, b});
   }
 
   const Measures& measures_;

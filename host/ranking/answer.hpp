@@ -28,7 +28,7 @@ struct RankedCombination {
   std::uint32_t trials = 0;
   std::vector<double> means;              // by criterion; NaN: undefined
   std::vector<core::Interval> intervals;  // of the means
-  std::vector<double> sibling_means;      // by sibling of the first criterion
+  std::vector<double> sibling_means;      // by sibling of Answer::safe
   std::vector<std::string> same_as{};     // planners whose trials with this controller are the same, to the bit
   std::vector<PairedDifference> against;  // by criterion: its values minus the first's; empty for the first
   Standing standing = Standing::first;
@@ -37,10 +37,10 @@ struct RankedCombination {
   bool pareto = true;                  // no other is as good in all criteria, and better in one
 };
 
-// Two combinations (places in the ranking) whose order in the first criterion one of its siblings turns round.
+// Two combinations (places in the ranking) whose order in Answer::safe one of its siblings turns round.
 struct OrderFlip {
   std::size_t sibling = 0;
-  std::size_t before = 0;  // has the higher mean in the first criterion
+  std::size_t before = 0;  // has the higher mean in Answer::safe
   std::size_t behind = 0;  // has the higher mean in the sibling
 };
 
@@ -62,8 +62,9 @@ struct Answer {
   bool in_general = false;   // worlds are observations, too: there are enough of them
   std::vector<Criterion> criteria;
   std::vector<RankedCombination> ranking;  // those that may be the best first, then by the criteria
-  std::vector<Criterion> siblings;         // of the first criterion: shares that differ in whose fault contacts are
-  std::vector<OrderFlip> flips;            // by sibling, then by the places of `before` and `behind`
+  std::size_t safe = 0;             // the criterion of robots that arrived without a fault, where it has siblings
+  std::vector<Criterion> siblings;  // of it: shares that differ in whose fault contacts are
+  std::vector<OrderFlip> flips;     // by sibling, then by the places of `before` and `behind`
 
   std::vector<FactorEffects> factors;  // of planners and of controllers, if each planner has each controller
 

@@ -177,7 +177,8 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
     cell.global_planner = cell.local_controller = "";
     if (std::find(answer.cells.begin(), answer.cells.end(), cell) == answer.cells.end()) continue;
     robots += other.robots;
-    for (const FailureCause& cause : other.causes) add_cause(causes, cause);
+    for (const FailureCause& cause : other.causes)
+      if (!is_exclusion(cause.cause)) add_cause(causes, cause);
     add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials, 0});
   }
   std::uint32_t unsafe = 0;
@@ -187,14 +188,14 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
                                    combination_name(one), unsafe, cause_words(causes));
 }
 
-// Pairs of combinations whose order a sibling of the first criterion turns round.
+// Pairs of combinations whose order in safety a sibling of it turns round.
 std::string flip_line(const Answer& answer) {
-  const std::string& first = answer.criteria.front().name;
+  const std::string& safe = answer.criteria[answer.safe].name;
   std::vector<std::string> pairs;
   for (const OrderFlip& flip : answer.flips) {
     const auto words = [&](const RankedCombination& one) {
-      return fmt::format("{} ({:.2f}; {} {:.2f})", combination_name(one), one.sibling_means[flip.sibling], first,
-                         one.means[0]);
+      return fmt::format("{} ({:.2f}; {} {:.2f})", combination_name(one), one.sibling_means[flip.sibling], safe,
+                         one.means[answer.safe]);
     };
     pairs.push_back(fmt::format("by {}, {} is before {}", answer.siblings[flip.sibling].name,
                                 words(answer.ranking[flip.behind]), words(answer.ranking[flip.before])));

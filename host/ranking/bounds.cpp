@@ -93,14 +93,14 @@ void add_places(const Bounds& bounds, const SummaryLayout& layout, std::span<con
                 std::vector<MetricColumn>& metrics, std::vector<CombinationSummary>& summaries) {
   if (bounds.lower.empty() || bounds.upper.empty()) return;
   const Measures measures(layout, metrics, trials);
-  if (measures.criteria().empty()) return;
+  if (!measures.safe()) return;
   struct Column {
     std::string name;
     std::string words;
     Criterion criterion;
   };
-  const std::string share = layout.answer.shares.front();
-  std::vector<Column> columns = {{"place_" + share, share, measures.criteria().front()}};
+  const std::string share = layout.answer.safe;
+  std::vector<Column> columns = {{"place_" + share, share, measures.criteria()[*measures.safe()]}};
   if (measures.criteria().back().kind == Criterion::Kind::time)
     columns.push_back({"place_time", "time over the shortest way", measures.criteria().back()});
 

@@ -52,9 +52,9 @@ void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const
     count(cause, 1, trial.id);
     if (event.robots.size() > 1 && roots.emplace(cause.cause, event.robots[1]).second) ++cause.roots;
   }
-  if (layout.answer.shares.empty()) return;
+  if (layout.answer.safe.empty()) return;
   const auto arrived = robots_with(trial, layout.arrived, 1.0);
-  for (const std::uint64_t robot : robots_with(trial, layout.answer.shares.front(), 0.0))
+  for (const std::uint64_t robot : robots_with(trial, layout.answer.safe, 0.0))
     if (std::binary_search(arrived.begin(), arrived.end(), robot)) count(failures.contact, 1, trial.id);
 }
 
@@ -72,6 +72,16 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
   }
   for (CombinationFailures& one : failures) sort_by_frequency(one.causes);
   return failures;
+}
+
+bool is_exclusion(std::string_view cause) {
+  return cause.starts_with("excluded for ");
+}
+
+std::uint32_t excluded_robots(const std::string& arrived, const TrialRecord& trial) {
+  return static_cast<std::uint32_t>(
+      std::count_if(trial.events.begin(), trial.events.end(),
+                    [&](const MetricEvent& one) { return one.metric == arrived && is_exclusion(cause_of(one)); }));
 }
 
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause) {
@@ -96,6 +106,7 @@ std::string failures_line(std::span<const CombinationFailures> failures) {
   std::uint32_t robots = 0;
   for (const CombinationFailures& one : failures)
     for (const FailureCause& cause : one.causes) {
+      if (is_exclusion(cause.cause)) continue;
       add_cause(causes, cause);
       robots += cause.robots;
     }

@@ -91,8 +91,8 @@ std::string shown(const GradedSeries& series, const core::Threshold& end) {
 
 std::vector<GradedSeries> graded_series(const SummaryLayout& layout, std::span<const ScenarioFacts> scenarios,
                                         std::span<const TrialRecord> trials) {
-  if (layout.answer.shares.empty()) return {};
-  const std::string& share = layout.answer.shares.front();
+  const std::string& share = layout.answer.safe;
+  if (share.empty()) return {};
   std::vector<GradedSeries> all = empty_series(scenarios);
   for (GradedSeries& series : all) {
     std::vector<Collected> collected;
@@ -134,17 +134,6 @@ std::string combination_name(std::span<const GradedSeries> all, const GradedResu
   std::string name = planners ? result.global_planner + " + " + result.local_controller : result.local_controller;
   if (models) name += " · " + result.pedestrian_model;
   return name;
-}
-
-bool tells_apart(const GradedSeries& series) {
-  for (std::size_t level = 0; level < series.levels.size(); ++level) {
-    std::vector<double> means;
-    for (const GradedResult& result : series.results)
-      if (!std::isnan(result.means[level])) means.push_back(result.means[level]);
-    if (means.empty()) continue;
-    if (const double mean = core::mean(means); mean >= 0.2 && mean <= 0.8) return true;
-  }
-  return false;
 }
 
 }  // namespace dmrp::host

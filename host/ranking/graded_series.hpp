@@ -44,7 +44,4 @@ std::string threshold_words(const GradedSeries& series, const core::ThresholdEst
 // What tells a combination from the others of all series: the controller alone, if there is one planner.
 std::string combination_name(std::span<const GradedSeries> all, const GradedResult& result);
 
-// Whether there is a level whose mean over the combinations lies in [0.2, 0.8].
-bool tells_apart(const GradedSeries& series);
-
 }  // namespace dmrp::host

@@ -11,13 +11,17 @@
 namespace dmrp::host {
 namespace {
 
-// Unless it was not measured.
-void add_share(std::vector<Criterion>& shares, std::span<const MetricColumn> metrics, std::string name) {
+// Unless it was not measured. Whether it was.
+bool add_share(std::vector<Criterion>& shares, std::span<const MetricColumn> metrics, const std::string& metric_name,
+               const std::map<std::string, std::string>& names) {
   const auto found =
-      std::find_if(metrics.begin(), metrics.end(), [&](const auto& metric) { return metric.name == name; });
-  if (found == metrics.end()) return;
+      std::find_if(metrics.begin(), metrics.end(), [&](const auto& metric) { return metric.name == metric_name; });
+  if (found == metrics.end()) return false;
+  const auto given = names.find(metric_name);
+  std::string name = given != names.end() ? given->second : metric_name;
   std::replace(name.begin(), name.end(), '_', ' ');
   shares.push_back({name, Criterion::Kind::share, static_cast<std::size_t>(found - metrics.begin())});
+  return true;
 }
 
 RobotValues robot_values(std::span<const TrialRecord> trials, const std::string& metric) {
@@ -82,9 +86,12 @@ std::vector<std::optional<double>> people_delays(const SummaryLayout& layout, st
 Measures::Measures(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
                    std::span<const TrialRecord> trials)
     : trials_(trials), values_(system_values(metrics, trials)), delays_(people_delays(layout, trials)) {
-  for (const std::string& share : layout.answer.shares) add_share(criteria_, metrics, share);
+  for (const std::string& share : layout.answer.shares)
+    if (add_share(criteria_, metrics, share, layout.answer.names) && share == layout.answer.safe)
+      safe_ = criteria_.size() - 1;
   if (criteria_.empty()) return;
-  for (const std::string& sibling : layout.answer.siblings) add_share(siblings_, metrics, sibling);
+  for (const std::string& sibling : layout.answer.siblings)
+    if (safe_) add_share(siblings_, metrics, sibling, layout.answer.names);
   if (any_of(delays_)) criteria_.push_back({"people's delay", Criterion::Kind::delay, 0});
   const RobotValues ways = robot_values(trials, layout.answer.way_length);
   times_ = robot_values(trials, layout.answer.time);

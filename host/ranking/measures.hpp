@@ -49,7 +49,10 @@ class Measures {
   // Shares first, as far as they were measured, time last; none without a share.
   const std::vector<Criterion>& criteria() const { return criteria_; }
 
-  // The siblings of the first criterion, shares, as far as they and it were measured.
+  // Of criteria(): whether robots arrived without a fault; none if it was not measured.
+  std::optional<std::size_t> safe() const { return safe_; }
+
+  // The siblings of safe(), shares, as far as they and it were measured.
   const std::vector<Criterion>& siblings() const { return siblings_; }
 
   JointValues joint(const Criterion& criterion) const;
@@ -65,6 +68,7 @@ class Measures {
   std::vector<std::optional<double>> delays_;  // by trial
   RobotValues times_;                          // over the lengths of the shortest ways, s/m
   std::vector<Criterion> criteria_;
+  std::optional<std::size_t> safe_;
   std::vector<Criterion> siblings_;
 };
 

@@ -43,6 +43,10 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
   for (const auto& [key, value] : json.items()) {
     if (key == "shares")
       answer.shares = value.get<std::vector<std::string>>();
+    else if (key == "safe")
+      answer.safe = value.get<std::string>();
+    else if (key == "names")
+      answer.names = value.get<std::map<std::string, std::string>>();
     else if (key == "siblings")
       answer.siblings = value.get<std::vector<std::string>>();
     else if (key == "people_progress")
@@ -56,6 +60,7 @@ AnswerMetrics parse_answer(const nlohmann::json& json) {
     else
       throw std::runtime_error("unknown key '" + key + "' of 'answer'");
   }
+  if (answer.safe.empty() && !answer.shares.empty()) answer.safe = answer.shares.front();
   return answer;
 }
 

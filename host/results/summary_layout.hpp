@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,12 +25,14 @@ struct SummaryTableColumn {
 
 // The metrics by which combinations are ordered (host/ranking/answer.hpp).
 struct AnswerMetrics {
-  std::vector<std::string> shares;    // of robots, the most important first; higher is better
-  std::vector<std::string> siblings;  // of the first share, stricter or milder; orders that one turns round are named
-  std::string people_progress;        // curve over seconds: mean distance gained by a person, m
-  std::string people_speed;           // their mean desired speed, m/s: with the curve, the delay that robots cause
-  std::string time;                   // of a robot's arrival; lower is better
-  std::string way_length;             // of a robot's shortest way, by which its time is divided
+  std::vector<std::string> shares;  // of robots, the most important first; higher is better
+  std::string safe;  // the share that is 1 for a robot that arrived without a fault, else 0; by default the first
+  std::vector<std::string> siblings;         // of `safe`, stricter or milder; orders that one turns round are named
+  std::map<std::string, std::string> names;  // of shares, for readers; by default with spaces for underscores
+  std::string people_progress;               // curve over seconds: mean distance gained by a person, m
+  std::string people_speed;  // their mean desired speed, m/s: with the curve, the delay that robots cause
+  std::string time;          // of a robot's arrival; lower is better
+  std::string way_length;    // of a robot's shortest way, by which its time is divided
 };
 
 struct SummaryLayout {

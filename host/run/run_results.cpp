@@ -15,14 +15,12 @@
 #include "host/errors/machine_error.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
-#include "host/program/executable.hpp"
 #include "host/ranking/answer.hpp"
 #include "host/ranking/answer_text.hpp"
 #include "host/ranking/best_marks.hpp"
 #include "host/ranking/bounds.hpp"
 #include "host/ranking/failure_causes.hpp"
 #include "host/ranking/graded_series.hpp"
-#include "host/ranking/tested_worlds.hpp"
 #include "host/report/write_report.hpp"
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/closing_line.hpp"
@@ -79,8 +77,7 @@ std::string graded_table(std::span<const GradedSeries> all) {
     }
   std::string out;
   for (const GradedSeries& series : all) {
-    out += fmt::format("  {} · {}{}{}\n", series.title, series.quantity, series.unit == "1" ? "" : ", " + series.unit,
-                       tells_apart(series) ? "" : " · sanity only: no level has a mean in [0.2, 0.8]");
+    out += fmt::format("  {} · {}{}\n", series.title, series.quantity, series.unit == "1" ? "" : ", " + series.unit);
     out += fmt::format("    {}  {}", pad_right("", name_width), pad_right("passes half", words_width));
     for (const double level : series.levels) out += fmt::format("  {:>5}", fmt::format("{:.3g}", level));
     out += "\n";
@@ -140,9 +137,6 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = caution_about_few(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
-  const std::vector<TestedWorld> tested = read_tested_worlds(shared_data_path() / "layouts/discrimination.json");
-  for (const std::string& sentence : sanity_only(tested, scenarios, results.trials))
-    fmt::print("{}\n", wrapped_text(sentence, width, "  "));
   const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
     fmt::print("{}\n", answer_block(found.front(), failures, width));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/ranking/failure_causes.hpp"
 #include "host/terminal/wrapped_text.hpp"
 
 namespace dmrp::host {
@@ -35,6 +36,7 @@ std::string drawn_tasks_line(std::span<const ScenarioFacts> scenarios) {
 std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecord> trials) {
   std::uint64_t robots = 0;
   std::uint64_t arrived = 0;
+  std::uint64_t excluded = 0;
   bool arrival_measured = false;
   std::uint64_t faults = 0;
   std::uint64_t skipped = 0;
@@ -52,6 +54,7 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
       continue;
     }
     robots += trial.robots;
+    excluded += excluded_robots(layout.arrived, trial);
     if (!trial.repeatable) ++not_repeatable;
     for (const MetricValue& value : trial.values) {
       if (value.metric != layout.arrived || value.subject_kind != DMRP_SUBJECT_ROBOT || value.coordinate) continue;
@@ -63,8 +66,13 @@ std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecor
   }
 
   std::string line;
-  if (arrival_measured && robots > 0)
-    line += std::to_string(arrived) + " of " + counted(robots, "robot") + " arrived" + separator;
+  if (arrival_measured && robots > 0) {
+    line += std::to_string(arrived + excluded) + " of " + counted(robots, "robot") + " arrived";
+    if (excluded > 0)
+      line += "; " + std::to_string(excluded) + (excluded == 1 ? " of them is" : " of them are") +
+              " excluded for oscillation";
+    line += separator;
+  }
   if (contacts) line += counted(static_cast<std::uint64_t>(std::llround(*contacts)), "contact") + separator;
   line += counted(faults, "fault") + separator;
   if (unsupported > 0) line += counted(unsupported, "trial") + " unsupported" + separator;

@@ -15,7 +15,7 @@ namespace dmrp::host {
 // "drawn tasks: office with 2, 4, 8, 16 robots; mall with 8 robots"; empty if all tasks are listed.
 std::string drawn_tasks_line(std::span<const ScenarioFacts> scenarios);
 
-// "12 of 12 robots arrived · 0 contacts · 0 faults · repeatable"
+// "12 of 12 robots arrived; 2 of them are excluded for oscillation · 0 contacts · 0 faults · repeatable"
 std::string closing_line(const SummaryLayout& layout, std::span<const TrialRecord> trials);
 
 // "runs/quickstart   report.html  results.sqlite  traces/"

@@ -177,20 +177,8 @@ resolutions() {
   done
 }
 
-# What dmrp-host marks as "sanity only": the verdicts, as data.
-verdicts() {
-  awk -F ' *[|] *' '
-    BEGIN { factor["planner x execution"] = "planners"; factor["controller"] = "controllers" }
-    $5 in factor {
-      printf "%s    {\"scenario\": \"%s\", \"robots\": %d, \"people\": %d, \"factor\": \"%s\", \"passes\": %s}",
-        (n++ ? ",\n" : "{\n  \"rows\": [\n"), $2, $3, $4, factor[$5], ($16 == "passes" ? "true" : "false")
-    }
-    END { print (n ? "\n  ]\n}" : "{\n  \"rows\": []\n}") }'
-}
-
 # The page: its text is written by hand down to the mark.
 rows >"$out/rows.md"
-verdicts <"$out/rows.md" >"$out/discrimination.json"
 {
   sed '/^<!-- tests\/bench\/discrimination.sh -->$/q' "$page"
   printf '\n%s tasks a world, %s trials, %s minutes of processor time. Run by commit %s.\n\n' "$tasks" \
@@ -214,4 +202,3 @@ verdicts <"$out/rows.md" >"$out/discrimination.json"
   resolutions
 } >"$out/page.md"
 cp "$out/page.md" "$page"
-cp "$out/discrimination.json" "$(dirname "${BASH_SOURCE[0]}")/../../host/layouts/discrimination.json"

@@ -28,7 +28,7 @@ printf '| trial | world | controller | robot | cause | blocked by | blocked s | 
 printf '| --- | --- | --- | --- | --- | --- | --: | --: | --: |\n'
 ask "SELECT '| ' || trial.id, scenario, local_controller, robot,
     CASE first_cause WHEN 1 THEN 'time limit' WHEN 4 THEN 'no command' WHEN 7 THEN 'circling'
-      WHEN 8 THEN 'blocked by a person' WHEN 9 THEN 'blocked by a robot' WHEN 10 THEN 'stuck' ELSE first_cause END,
+      WHEN 8 THEN 'blocked by a person' WHEN 9 THEN 'blocked by a robot' WHEN 10 THEN 'stuck' WHEN 100 THEN 'collision' ELSE first_cause END,
     coalesce(CAST(culprit AS INTEGER), ''), round(\"blocked_time [s]\", 1), round(\"circling_time [s]\", 1),
     round(\"held_time [s]\", 1) || ' |'
   FROM robot_values JOIN trial ON trial.id = trial_id

@@ -369,6 +369,19 @@ const tests = {
       verdict.lines(data).map((line) => line.text),
       ['1 robot of 32 did not arrive, in 1 trial: 1 deadlock.', '16 trials without a fault, every one repeatable.']
     );
+    data.run.manifest = {experiment: {grown_from: [4]}};
+    data.run.repetitions = 20;
+    assert.strictEqual(
+      verdict.lines(data)[0].text,
+      'You added trials after seeing results (4, then 20): treat p values as exploratory.'
+    );
+    delete data.run.manifest;
+    data.failures = [{causes: [{cause: 'excluded for oscillation', robots: 1, trials: [2]}], contact: {robots: 0}}];
+    assert.strictEqual(
+      verdict.lines(data)[0].text,
+      '32 of 32 robots arrived; 1 of them is excluded for oscillation.'
+    );
+    data.failures = [];
     data.standstills_line = 'Of 6 robots at standstills that ran on to the time limit, 1 arrived after all';
     assert.ok(verdict.lines(data).some((line) => line.text === `${data.standstills_line}.`));
     data.standstills_line = '';
@@ -428,6 +441,10 @@ const tests = {
     same(metrics_table.found(data, 'how share'), []);
   },
   'the command line can be pasted into a shell'() {
+    const grown = {command_line: ['dmrp-host', 'a.toml', '--trials', '4', '--jobs=2'], repetitions: 20};
+    same(provenance.whole_run(grown), grown.command_line);
+    grown.manifest = {experiment: {grown_from: [4]}};
+    same(provenance.whole_run(grown), ['dmrp-host', 'a.toml', '--jobs=2', '--trials', '20']);
     same(provenance.command_words(['dmrp-host', 'my run.toml', "it's"]), "dmrp-host 'my run.toml' 'it'\\''s'");
   },
   'a heat map has a cell for each pair'() {

@@ -124,7 +124,6 @@ Json graded_json(const ReportRun& run, const SummaryLayout& layout) {
                     {"unit", series.unit},
                     {"levels", series.levels},
                     {"scenarios", series.scenarios},
-                    {"tells_apart", tells_apart(series)},
                     {"results", std::move(results)}});
   }
   return json;
@@ -332,7 +331,7 @@ Json with_added_table(Json layout, const std::vector<MetricColumn>& metrics) {
 ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
   const std::filesystem::path summary = folder / "summary.json";
   return {read_summary_layout(summary), read_file(summary, summary.string()),
-          read_report_layout(folder / "report.json"), read_tested_worlds(folder / "discrimination.json")};
+          read_report_layout(folder / "report.json")};
 }
 
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
@@ -358,7 +357,6 @@ std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts,
       curves_json(frame, metric_curves(frame, layouts.summary.answer.people_progress), layouts.report.curves);
   add_statistics(json, frame, run.manifest.experiment, layouts);
   json["graded"] = graded_json(run, layouts.summary);
-  json["sanity_only"] = sanity_only(layouts.tested_worlds, run.manifest.experiment.scenarios, run.trials);
   json["arrivals_by_type"] = arrivals_by_type_json(frame, run.manifest.experiment, layouts.summary.arrived);
   json["timing"] = timing_json(run.trials);
   json["faults"] = faults_json(run.trials);

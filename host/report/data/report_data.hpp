@@ -18,9 +18,8 @@
 //                     controllers and pedestrian models
 //   curves            [{metric, combination, coordinate_unit, points: [[coordinate, mean, low, high, defined]]}]
 //   comparisons, correlations, completion, pedestrian_delay: report_statistics.hpp
-//   graded            [{name, title, quantity, unit, levels, scenarios, tells_apart, results: [{global_planner,
-//                     local_controller, pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
-//   sanity_only       [sentence]: worlds that are not known to tell this run's planners or controllers apart
+//   graded            [{name, title, quantity, unit, levels, scenarios, results: [{global_planner, local_controller,
+//                     pedestrian_model, threshold, means}]}]: tests with levels, from hard to easy
 //   timing            [{trial, plugin, reason}]: why trials are not repeatable
 //   faults            [{trial, kind, plugin, function, step, robot, signal, detail, rerun}]
 //   layouts           {summary, report}: the files in share/dmrp/layouts
@@ -31,7 +30,6 @@
 #include <string>
 #include <vector>
 
-#include "host/ranking/tested_worlds.hpp"
 #include "host/report/data/report_layout.hpp"
 #include "host/report/data/report_run.hpp"
 #include "host/report/replay/replays.hpp"
@@ -43,7 +41,6 @@ struct ReportLayouts {
   SummaryLayout summary;
   std::string summary_json;  // the whole file
   ReportLayout report;
-  std::vector<TestedWorld> tested_worlds{};
 };
 
 // Reads the files of share/dmrp/layouts.

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "metrics/measure/contact_ends.hpp"
 #include "metrics/measure/referee_classes.hpp"
 #include "metrics/measure/values.hpp"
 
@@ -14,12 +15,14 @@ class FirstCause final : public Metric {
   static Descriptor describe() {
     return describe_metric("dmrp.metric.first_cause", "First cause")
         .summary("why robots failed, and which robot was the cause")
-        .source("own definition: the ends of robots in dmrp/trial_end.h")
+        .source("own definition: the ends of robots in dmrp/trial_end.h, and their contacts")
         .value("first_cause", "1", Direction::none, system_and_robots,
                "of a robot that failed: why, 1 time limit (it still made progress), 2 circled and arrived where the "
-               "experiment excludes that, 4 no command, 7 circling, 8 blocked by a person, 9 by a robot, 10 stuck; of "
-               "a robot that is held behind another, the other's reason, or 6 if that has none; system: of most "
-               "robots; undefined without a failure, if planning failed, and in traces of hosts before the referee")
+               "experiment excludes that, 4 no command, 7 circling, 8 blocked by a person, 9 by a robot, 10 stuck, 100 "
+               "collision: in place of 1, if it touched somebody or something at its end, and of 7 to 10, if it did or "
+               "never moved again after a contact; of a robot that is held behind another, the other's reason, or 6 if "
+               "that has none; system: of most robots; undefined without a failure, if planning failed, and in traces "
+               "of hosts before the referee")
         .value("culprit", "1", Direction::none, system_and_robots,
                "index of the robot that blocks the failed one or holds it, through all that wait; system: of most "
                "robots; undefined where nobody does")
@@ -33,11 +36,13 @@ class FirstCause final : public Metric {
 
   void begin(const MetricTrial&) override {
     classes_.begin(world().robots().size());
+    contacts_.begin(world().robots().size());
     runs_on_.assign(world().robots().size(), false);
   }
 
   void observe(const Sample& sample) override {
     classes_.observe(sample);
+    contacts_.observe(sample);
     for (const RobotEvent& event : sample.events)
       if (event.kind == DMRP_ROBOT_EVENT_RUNS_ON && event.robot < runs_on_.size()) runs_on_[event.robot] = true;
   }
@@ -49,8 +54,9 @@ class FirstCause final : public Metric {
       const bool failed = classes_.are_known() && robot.failure != DMRP_FAILURE_NONE;
       const bool is_held = robot.failure == DMRP_FAILURE_HELD_BEHIND;
       const bool has_culprit = robot.culprit < end.robots.size();
-      const std::uint32_t of_culprit = is_held && has_culprit ? end.robots[robot.culprit].failure : DMRP_FAILURE_NONE;
-      causes.push_back(failed ? known(of_culprit != DMRP_FAILURE_NONE ? of_culprit : robot.failure) : undefined);
+      const std::size_t first =
+          is_held && has_culprit && end.robots[robot.culprit].failure != DMRP_FAILURE_NONE ? robot.culprit : i;
+      causes.push_back(failed ? cause_of(first, end.robots[first]) : undefined);
       culprits.push_back(failed && has_culprit ? robot.culprit : undefined);
       held.push_back(failed ? is_held : undefined);
       after_standstill.push_back(runs_on_[i] ? robot.arrival_ns >= 0 : undefined);
@@ -62,9 +68,12 @@ class FirstCause final : public Metric {
   }
 
  private:
+  static constexpr std::uint32_t collision = 100;  // no failure of the referee's
+
   // Failures are an open list.
-  static std::uint32_t known(std::uint32_t failure) {
-    return failure <= DMRP_FAILURE_STUCK ? failure : DMRP_FAILURE_TIMEOUT;
+  std::uint32_t cause_of(std::size_t robot, const RobotEnd& end) const {
+    if (contacts_.failed_by_contact(robot, end)) return collision;
+    return end.failure <= DMRP_FAILURE_STUCK ? end.failure : DMRP_FAILURE_TIMEOUT;
   }
 
   // The least of those that occur most often.
@@ -78,6 +87,7 @@ class FirstCause final : public Metric {
   }
 
   RefereeClasses classes_;
+  ContactEnds contacts_;
   std::vector<bool> runs_on_;  // by robot: it was at a standstill that ran on
 };
 

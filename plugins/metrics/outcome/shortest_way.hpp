@@ -15,6 +15,8 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -116,6 +118,31 @@ class ShortestWay {
   std::vector<std::uint32_t> parents_;  // by cell
   std::vector<std::uint8_t> settled_;   // by cell
   std::vector<Entry> queue_;
+};
+
+// The shortest ways of a world's robots from their starts through their goals among the static shapes.
+class ShortestTours {
+ public:
+  // Both outlive this object.
+  ShortestTours(const dmrp_walking_grid& walking_grid, const World& world) : world_(world) {
+    // only its clearance counts, which is the same for every radius
+    const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world->person_radius_m};
+    const Grid* grid = walking_grid.grid(&walking_grid, &request);
+    if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
+    search_.emplace(*grid);
+  }
+
+  // NaN if there is no way.
+  double length_m(std::size_t robot) { return search_->tour_length(world_.robots()[robot]); }
+
+  // At v_max.
+  double least_time_s(std::size_t robot) { return length_m(robot) / world_.robots()[robot].limits->v_max; }
+
+ private:
+  static constexpr double cell_m = 0.25;  // of the walking grid
+
+  const World& world_;
+  std::optional<ShortestWay> search_;
 };
 
 }  // namespace dmrp::metrics

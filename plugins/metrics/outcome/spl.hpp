@@ -2,8 +2,6 @@
 // spl.hpp: success weighted by path length.
 #pragma once
 
-#include <stdexcept>
-
 #include "metrics/measure/driven_length.hpp"
 #include "metrics/measure/values.hpp"
 #include "metrics/outcome/shortest_way.hpp"
@@ -37,14 +35,10 @@ class Spl final : public Metric {
   void observe(const Sample& sample) override { driven_.observe(sample); }
 
   void finish(const TrialEnd& end, MetricSink& sink) override {
-    // only its clearance counts, which is the same for every radius
-    const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world()->person_radius_m};
-    const Grid* grid = walking_grid_->grid(walking_grid_, &request);
-    if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
-    ShortestWay search(*grid);
+    ShortestTours tours(*walking_grid_, world());
     std::vector<double> spl, shortest_m;
     for (std::size_t robot = 0; robot < world().robots().size(); ++robot) {
-      shortest_m.push_back(search.tour_length(world().robots()[robot]));
+      shortest_m.push_back(tours.length_m(robot));
       const double longer_m = std::max(driven_.of_robot(robot), shortest_m.back());
       const double ratio = longer_m == 0.0 ? 1.0 : shortest_m.back() / longer_m;
       spl.push_back(succeeded(end.robots[robot]) ? ratio : 0.0);
@@ -63,8 +57,6 @@ class Spl final : public Metric {
   }
 
  private:
-  static constexpr double cell_m = 0.25;  // of the walking grid
-
   const dmrp_walking_grid* walking_grid_ = nullptr;
   DrivenLength driven_;
 };

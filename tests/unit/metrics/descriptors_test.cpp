@@ -96,6 +96,7 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
                                       "success",
                                       "trial_success",
                                       "safe_success",
+                                      "safe_sct",
                                       "mission_time",
                                       "throughput",
                                       "contact_free_success",

@@ -104,5 +104,5 @@ export function mount(body, data) {
   const options = data.answers.map((answer, i) => ({value: String(i), label: scope_words(data, answer)}));
   const choose = (options.length <= 4 ? controls.segmented : controls.select)('Scenario', options, '0', show);
   show(0);
-  fill(body, choose && controls.row(choose), holder, data.sanity_only.map((line) => element('p', {class: 'note'}, line)));
+  fill(body, choose && controls.row(choose), holder);
 }

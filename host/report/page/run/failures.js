@@ -125,7 +125,7 @@ export function mount(body, data) {
     {class: 'failures'},
     head_row(
       element('th', {scope: 'col'}, 'combination'),
-      element('th', {scope: 'col', class: 'number'}, 'did not arrive'),
+      element('th', {scope: 'col', class: 'number'}, 'failed'),
       columns.map((cause) => element('th', {scope: 'col', class: 'number'}, cause))
     ),
     bodies

@@ -10,6 +10,14 @@ function quoted(argument) {
   return /^[\w./:=,@%+-]+$/.test(argument) ? argument : `'${argument.replace(/'/g, `'\\''`)}'`;
 }
 
+// The command line that gives all the trials that the run has: it may have grown since it was begun.
+export function whole_run(run) {
+  const grown = ((run.manifest || {}).experiment || {}).grown_from || [];
+  if (grown.length === 0) return run.command_line;
+  const is_number = (i) => /^--trials(=|$)/.test(run.command_line[i]) || run.command_line[i - 1] === '--trials';
+  return [...run.command_line.filter((_, i) => !is_number(i)), '--trials', String(run.repetitions)];
+}
+
 export function command_words(command_line) {
   return command_line.map(quoted).join(' ');
 }
@@ -65,7 +73,7 @@ function command(text, what) {
 }
 
 function repeating(data) {
-  const line = command_words(data.run.command_line);
+  const line = command_words(whole_run(data.run));
   return element(
     'div',
     {class: 'repeating'},

@@ -6,6 +6,12 @@ function sum(values) {
   return values.reduce((total, value) => total + (value || 0), 0);
 }
 
+// Robots that arrived, but do not count as arrived.
+function excluded(data) {
+  const causes = data.failures.flatMap((row) => row.causes).filter((one) => one.cause.startsWith('excluded for '));
+  return sum(causes.map((one) => one.robots));
+}
+
 // Totals over all trials that ran. The layout names the metrics for arrivals and contacts.
 export function tally(data) {
   const {trials, values, combinations, run} = data;
@@ -23,7 +29,8 @@ export function tally(data) {
     failed_trials: ran.filter((i) => trials.outcome[i] === 'failed').length,
     not_repeatable: ran.filter((i) => !trials.repeatable[i]).length,
     robots: sum(known(arrived).map(robots)),
-    arrived: Math.round(sum(known(arrived).map((i) => values[arrived][i] * robots(i)))),
+    arrived: Math.round(sum(known(arrived).map((i) => values[arrived][i] * robots(i)))) + excluded(data),
+    excluded: excluded(data),
     contacts: known(contacts).length ? sum(known(contacts).map((i) => values[contacts][i])) : null,
     simulated_s: sum(ran.map((i) => trials.sim_time_s[i])),
     wall_s: sum(ran.map((i) => trials.wall_time_s[i])),
@@ -75,8 +82,9 @@ export function lines(data) {
   if (grown.length > 0)
     add(
       'warning',
-      `Continued with more trials than it was begun with (${[...grown, data.run.repetitions].join(', then ')} of each ` +
-        'combination): intervals and p values hold for a number that was set before results were seen.'
+      `You added trials after seeing results (${[...grown, data.run.repetitions].join(
+        ', then '
+      )}): treat p values as exploratory.`
     );
   if (t.not_repeatable > 0)
     add(
@@ -94,6 +102,14 @@ export function lines(data) {
         t.failed_trials,
         'trial'
       )}${causes_words(data)}.`,
+      'failures'
+    );
+  if (t.excluded > 0)
+    add(
+      'note',
+      `${t.arrived} of ${t.robots} robots arrived; ${t.excluded} of them ${
+        t.excluded === 1 ? 'is' : 'are'
+      } excluded for oscillation.`,
       'failures'
     );
   if (t.unsupported > 0)

@@ -205,6 +205,36 @@ TEST_CASE("swept values of scenarios are columns and axes", "[export]") {
                   InputError);
 }
 
+TEST_CASE("people are their number, which needs no sweep", "[export]") {
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "slow", 3, [](std::uint32_t) { return std::vector<RobotResult>{{}}; });
+  for (std::size_t i = 0; i < 3; ++i) trials.push_back(trials[i]);
+  for (std::size_t i = 3; i < 6; ++i) trials[i].scenario = "office";
+  ScenarioFacts mall;
+  mall.name = "mall";
+  mall.robots = 1;
+  mall.people = 12;
+  ScenarioFacts office = mall;
+  office.name = "office";
+  office.people = 1;
+  const PeopleCounts people = people_counts(std::vector{mall, office});
+
+  const RunSettings settings(effective, trials, people);
+  CHECK(settings.value("people", trials.front()) == "12");
+  const LineChart chart = metric_over("done", "people", ranking_layout(), ranking_metrics(), trials, settings);
+  CHECK(chart.lines.size() == 2);
+
+  CHECK(label_named("people") == Label::people);
+  const TableSpec spec = {
+      "t", "Results", {Label::pedestrian_model}, {Label::people}, {{"done", "done", 2, "", false, ""}}, people};
+  MeanTable table = make_mean_table(spec, ranking_layout(), ranking_metrics(), trials);
+  CHECK(table.spans == std::vector<std::string>{"12 people", "1 person"});
+  CHECK(table.rows.front().name == "crowd");
+  trials.back().pedestrian_model = "";
+  table = make_mean_table(spec, ranking_layout(), ranking_metrics(), trials);
+  CHECK(table.spans.back() == "0 people");
+}
+
 TEST_CASE("a table as a figure has the values of the LaTeX table", "[export]") {
   SummaryTableColumn done{"done", "success", 2, "", false, ""};
   SummaryTableColumn time{"time", "time", 1, "", false, ""};

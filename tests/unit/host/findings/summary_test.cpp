@@ -147,6 +147,8 @@ TEST_CASE("layouts are checked", "[results]") {
   CHECK_THROWS_WITH(parse_summary_layout("{", "a.json"), Catch::Contains("a.json"));
   CHECK_THROWS_WITH(read_summary_layout("/nowhere/a.json"), Catch::Contains("/nowhere/a.json"));
   const SummaryLayout shipped = read_summary_layout(DMRP_SUMMARY_LAYOUT);
+  CHECK(shipped.answer.shares == std::vector<std::string>{"safe_sct", "safe_success"});
+  CHECK(shipped.answer.safe == "safe_success");
   CHECK(shipped.columns.size() == 9);
   CHECK_FALSE(shipped.arrived.empty());
 }

@@ -370,7 +370,7 @@ TEST_CASE("the numbers of people of a sweep have the same tasks", "[ranking]") {
   CHECK(found[0].n == 6);
 }
 
-TEST_CASE("orders that a sibling of the first share turns round are flagged", "[ranking]") {
+TEST_CASE("orders that a sibling of the safe share turns round are flagged", "[ranking]") {
   const std::vector<RobotResult> one_is_touched{{20.0, true, 10.0, true}, {40.0, true, 20.0}};
   const auto first = [](std::uint32_t count, const std::vector<RobotResult>& robots) {
     return [=](std::uint32_t i) { return i < count ? robots : both_arrive; };
@@ -404,6 +404,20 @@ TEST_CASE("orders that a sibling of the first share turns round are flagged", "[
                    std::string("The order depends on whose fault contacts are: by untouched done, P + unsafe "
                                "(0.90; safe 0.90) is before P + touched (0.75; safe 1.00) and by excused done, P + "
                                "excused (1.00; safe 0.60) is before P + unsafe (0.90; safe 0.90).")));
+  }
+  SECTION("also where another share comes before it") {
+    SummaryLayout layout = ranking_layout();
+    layout.answer.shares = {"done", "safe"};
+    layout.answer.names = {{"done", "arrivals by time"}};
+    const std::vector<Answer> all = answers(layout, ranking_metrics(), trials);
+    REQUIRE(all.front().criteria.size() == 3);
+    CHECK(all.front().criteria[0].name == "arrivals by time");
+    CHECK(all.front().criteria[1].name == "safe");
+    CHECK(all.front().safe == 1);
+    REQUIRE(all.front().flips.size() == 1);
+    const OrderFlip& flip = all.front().flips.front();
+    CHECK(all.front().ranking[flip.before].local_controller == "touched");
+    CHECK(all.front().ranking[flip.behind].local_controller == "unsafe");
   }
   SECTION("nor where the sibling was not measured") {
     std::vector<MetricColumn> metrics = ranking_metrics();

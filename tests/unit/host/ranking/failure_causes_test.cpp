@@ -36,6 +36,10 @@ TEST_CASE("failures are counted by combination and cause", "[ranking]") {
   CHECK(failures[1].causes[0].cause == "fault");
   CHECK(failures[1].causes[0].robots == 2);
   CHECK(failures_line(failures) == "6 did not arrive: 3 deadlock, 2 fault, 1 no plan");
+
+  trials[2].events.back().text = "robot 0 failed: excluded for oscillation";
+  CHECK(failures_line(failure_causes(ranking_layout(), trials)) == "5 did not arrive: 3 deadlock, 2 fault");
+  CHECK(excluded_robots("done", trials[2]) == 1);
 }
 
 TEST_CASE("the robots that others wait for are counted once a trial and cause", "[ranking]") {

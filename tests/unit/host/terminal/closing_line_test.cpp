@@ -18,6 +18,14 @@ TEST_CASE("the closing line counts", "[terminal]") {
   trials[3] = example_trial(3, "A*", 1, std::nullopt, 0.61);  // failed
   CHECK(closing_line(layout, trials) == "7 of 8 robots arrived · 0 contacts · 0 faults · repeatable");
 
+  MetricEvent excluded;
+  excluded.metric = layout.arrived;
+  excluded.text = "robot 1 failed: excluded for oscillation";
+  trials[3].events.push_back(excluded);
+  CHECK(closing_line(layout, trials) ==
+        "8 of 8 robots arrived; 1 of them is excluded for oscillation · 0 contacts · 0 faults · repeatable");
+  trials[3].events.clear();
+
   trials[0].repeatable = false;
   trials[0].values.back().value = 1.0;
   trials[1].outcome = trial_outcome::fault;

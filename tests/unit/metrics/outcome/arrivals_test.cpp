@@ -158,6 +158,51 @@ TEST_CASE("after a standstill that runs on, it counts which of its robots arrive
   CHECK(m.system("after_standstill") == 0.5);
 }
 
+TEST_CASE("a robot that stands after a contact failed by the contact") {
+  constexpr double collision = 100.0;
+  SyntheticTrial trial(8);
+  const std::vector<dmrp_robot_sample> robots(8, at(0, 0));
+  const std::uint32_t moving = DMRP_CLASS_MOVING, stuck = DMRP_CLASS_STUCK;
+  trial.plan(std::vector<Points>(8, Points{{0, 0}}));
+  std::vector<dmrp_robot_event> all;
+  for (std::uint32_t robot = 0; robot < 8; ++robot) all.push_back(becomes(robot, moving));
+  trial.sample(0.0, robots).events(all);
+  // 0 and 1 into each other, to their end; 2 against a wall, once; 3 likewise, but it drives on; 4 was stuck before
+  trial.sample(10.0, robots)
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, begins | fault_a | fault_b),
+                 contact(DMRP_CONTACT_STATIC, 2, 0, begins | fault_a), contact(DMRP_CONTACT_STATIC, 3, 0, begins)})
+      .events({becomes(4, stuck), becomes(7, stuck)});
+  trial.sample(12.0, robots)
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0), contact(DMRP_CONTACT_PERSON, 4, 0, begins)});
+  trial.sample(29.0, robots)
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0)})
+      .events({becomes(0, stuck), becomes(1, stuck), becomes(2, stuck)});
+  trial.sample(55.0, robots).contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0)});
+  trial.sample(60.0, robots)
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0), contact(DMRP_CONTACT_PERSON, 5, 0, begins)})
+      .events({becomes(3, stuck)});
+  trial.end(60.0, std::vector<double>(8, never));
+  trial.failure(0, DMRP_FAILURE_BLOCKED_ROBOT, 1).failure(1, DMRP_FAILURE_BLOCKED_ROBOT, 0);
+  trial.failure(2, DMRP_FAILURE_STUCK).failure(3, DMRP_FAILURE_STUCK).failure(4, DMRP_FAILURE_STUCK);
+  trial.failure(6, DMRP_FAILURE_HELD_BEHIND, 0).failure(7, DMRP_FAILURE_STUCK);  // 5 touches at the time limit
+
+  const Measurement m = measure("dmrp.metric.first_cause", trial);
+  const std::vector<double> causes = {collision,          collision, collision, DMRP_FAILURE_STUCK,
+                                      DMRP_FAILURE_STUCK, collision, collision, DMRP_FAILURE_STUCK};
+  for (std::size_t robot = 0; robot < causes.size(); ++robot) CHECK(m.robot("first_cause", robot) == causes[robot]);
+  CHECK(m.robot("culprit", 6) == 0.0);
+  CHECK(m.system("first_cause") == collision);
+
+  const Measurement success = measure("dmrp.metric.success", trial);
+  REQUIRE(success.events.size() == 8);
+  CHECK(success.events[0].text == "robot 0 failed: stood after hitting another robot");
+  CHECK(success.events[0].robots == std::vector<std::uint32_t>{0});
+  CHECK(success.events[2].text == "robot 2 failed: stood after hitting a wall or furniture");
+  CHECK(success.events[3].text == "robot 3 failed: stuck");
+  CHECK(success.events[5].text == "robot 5 failed: stood after hitting a person");
+  CHECK(success.events[6].text == "robot 6 failed: held behind another robot");
+}
+
 TEST_CASE("a robot that waits for another failed by the other's cause") {
   SyntheticTrial trial(6);
   trial.plan(std::vector<Points>(6, Points{{0, 0}})).sample(0.0, std::vector<dmrp_robot_sample>(6, at(0, 0)));

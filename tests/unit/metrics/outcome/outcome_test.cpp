@@ -31,7 +31,7 @@ TEST_CASE("success is the share of robots that arrived and were not failed") {
   CHECK(m.events[0].text == "robot 1 failed: time limit");
   CHECK(m.events[0].robots == std::vector<std::uint32_t>{1});
   CHECK(m.events[0].from_s == 10.0);
-  CHECK(m.events[1].text == "robot 2 failed: oscillation");
+  CHECK(m.events[1].text == "robot 2 failed: excluded for oscillation");
 }
 
 TEST_CASE("people nearby is the time average of the count around active robots") {
@@ -88,6 +88,50 @@ TEST_CASE("safe success requires that no contact is the robot's fault") {
   for (std::uint32_t robot = 0; robot < 6; ++robot) CHECK(m.robot("contact_free_success", robot) == 0.0);
   CHECK(m.system("success") == 1.0);
   CHECK(m.system("trial_success") == 1.0);
+}
+
+TEST_CASE("safe success is weighted by the least time over the time of arrival") {
+  constexpr double v_max = 0.8;
+  SyntheticTrial trial(6);
+  for (std::size_t robot = 0; robot < 5; ++robot) trial.route(robot, {0, 0, 0}, {{3, 4, std::nan("")}});
+  const std::vector<dmrp_robot_sample> robots(6, at(0, 0));
+  trial.plan(std::vector<Points>(6, Points{{0, 0}}));
+  trial.sample(0.0, robots);
+  trial.sample(1.0, robots).contacts({contact(DMRP_CONTACT_STATIC, 3, 0, begins | fault_a)});
+  // the shortest way, 5 m, at v_max; in twice that time; faster, by the goal's tolerance; into a wall; failed; at its goal
+  const double least_s = 5.0 / v_max;
+  trial.end(20.0, {least_s, 2.0 * least_s, 0.9 * least_s, least_s, never, 20.0});
+
+  const Measurement m = measure("dmrp.metric.success", trial);
+  CHECK_THAT(m.robot("safe_sct", 0), WithinAbs(1.0, 1e-9));
+  CHECK_THAT(m.robot("safe_sct", 1), WithinAbs(0.5, 1e-9));
+  CHECK(m.robot("safe_sct", 2) == 1.0);
+  CHECK(m.robot("safe_sct", 3) == 0.0);
+  CHECK(m.robot("safe_sct", 4) == 0.0);
+  CHECK(m.robot("safe_sct", 5) == 1.0);
+  CHECK_THAT(m.system("safe_sct"), WithinAbs(3.5 / 6.0, 1e-9));
+}
+
+TEST_CASE("safe success weighted by time is in [0, safe_success], whatever the time of arrival") {
+  constexpr std::size_t robots = 40;
+  SyntheticTrial trial(robots);
+  std::vector<double> arrivals;
+  for (std::size_t robot = 0; robot < robots; ++robot) {
+    trial.route(robot, {0, 0, 0}, {{0.3 * static_cast<double>(robot % 7), 4.0, std::nan("")}});
+    arrivals.push_back(robot % 5 == 0 ? never : 0.02 * static_cast<double>(robot * robot));
+  }
+  trial.plan(std::vector<Points>(robots, Points{{0, 0}}));
+  trial.sample(0.0, std::vector<dmrp_robot_sample>(robots, at(0, 0)));
+  trial.sample(40.0, std::vector<dmrp_robot_sample>(robots, at(0, 0)))
+      .contacts({contact(DMRP_CONTACT_STATIC, 3, 0, begins | fault_a)});
+  trial.end(40.0, arrivals);
+  const Measurement m = measure("dmrp.metric.success", trial);
+  for (std::uint32_t robot = 0; robot < robots; ++robot) {
+    CHECK(m.robot("safe_sct", robot) >= 0.0);
+    CHECK(m.robot("safe_sct", robot) <= m.robot("safe_success", robot));
+    CHECK((m.robot("safe_sct", robot) > 0.0) == (m.robot("safe_success", robot) > 0.0));
+  }
+  CHECK(m.system("safe_sct") <= m.system("safe_success"));
 }
 
 TEST_CASE("path length is the sum of the driven lengths") {
