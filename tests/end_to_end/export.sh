@@ -72,6 +72,8 @@ found=$(sqlite3 :memory: ".import --csv $scratch/crowd/trials.csv t" \
   fail "trials.csv has the columns $found"
 expect_status 0 "$host" export "$scratch/crowd" --svg --metric pfd --over people --out "$scratch/people.svg"
 grep -q 'tracking none' "$scratch/people.svg" || fail "the figure has no line for each tracking"
+expect_status 0 "$host" export "$scratch/crowd" --latex --rows controller --columns people --metric pfd
+grep -q '{1 person}' "$scratch/stdout" && grep -q '{4 people}' "$scratch/stdout" || fail "people are not their number across"
 expect_status 0 "$host" "$scratch/crowd/effective.toml" --quiet --out "$scratch/again"
 swept="SELECT trial_id, key, value FROM swept ORDER BY 1, 2"
 [[ $(query "$scratch/again" "$swept") == "$(query "$scratch/crowd" "$swept")" ]] || fail "effective.toml has another sweep"
@@ -83,7 +85,7 @@ refused() {
 }
 refused "did you mean 'driving'" --table drivin
 refused "did you mean 'success'" --latex --metric sucess
-refused "none of scenario, robots, planner" --latex --rows planet
+refused "none of scenario, robots, people, planner" --latex --rows planet
 refused "did you mean 'simulation.step_s'" --svg --over simulation.step
 refused "do not differ in the number 'simulation.step_s'" --svg --over simulation.step_s
 refused "^--map 99: .* has [0-9]+ finished trials, from 0 to" --map 99

@@ -69,11 +69,11 @@ expect_status 0 "$host" validate many.toml
 [[ $(wc -l <"$scratch/stdout") == 1 ]] || fail "validate knows of a run that is not there: $(cat "$scratch/stdout")"
 mkdir runs && mv grown runs/crossing
 forge runs/crossing "UPDATE value SET value = (SELECT CASE WHEN local_controller = 'DWA' AND repetition = 3 THEN 0.5 ELSE 1 END
-  FROM trial WHERE id = trial_id) WHERE metric = 'safe_success' AND subject_kind = 'system'"
+  FROM trial WHERE id = trial_id) WHERE metric = 'safe_sct' AND subject_kind = 'system'"
 needed() { # SMALLEST_EFFECT
   { cat many.toml && printf '[benchmark]\nsmallest_effect = %s\n' "$1"; } >effect.toml
   expect_status 0 "$host" validate effect.toml
-  sed -n "s/^A difference of $1 in safe success would show with about \([0-9]*\) tasks (from .* runs\/crossing)$/\1/p" "$scratch/stdout"
+  sed -n "s/^A difference of $1 in safe success by time would show with about \([0-9]*\) tasks (from .* runs\/crossing)$/\1/p" "$scratch/stdout"
 }
 small=$(needed 0.05)
 large=$(needed 0.2)

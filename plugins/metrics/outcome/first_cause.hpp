@@ -18,11 +18,11 @@ class FirstCause final : public Metric {
         .source("own definition: the ends of robots in dmrp/trial_end.h, and their contacts")
         .value("first_cause", "1", Direction::none, system_and_robots,
                "of a robot that failed: why, 1 time limit (it still made progress), 2 circled and arrived where the "
-               "experiment excludes that, 4 no command, 7 circling, 8 blocked by a person, 9 by a robot, 10 stuck, 100 "
-               "collision: in place of 1, if it touched somebody or something at its end, and of 7 to 10, if it did or "
-               "never moved again after a contact; of a robot that is held behind another, the other's reason, or 6 if "
-               "that has none; system: of most robots; undefined without a failure, if planning failed, and in traces "
-               "of hosts before the referee")
+               "experiment excludes that, 4 no command, 7 circling, 8 blocked by a person, 9 by a robot, 10 stuck; 100 "
+               "collision, in place of 1 and 7 to 10, if a contact began while it was moving and lasted to its end, "
+               "and of 7 to 10, if it never moved on; of a robot that is held behind another, the other's reason, or 6 "
+               "if that has none; system: of most robots; undefined without a failure, if planning failed, and in "
+               "traces of hosts before the referee")
         .value("culprit", "1", Direction::none, system_and_robots,
                "index of the robot that blocks the failed one or holds it, through all that wait; system: of most "
                "robots; undefined where nobody does")

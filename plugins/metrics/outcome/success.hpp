@@ -68,8 +68,8 @@ class Success final : public Metric {
       std::vector<std::uint32_t> robots = {robot};  // and the culprit
       if (!by_contact && own.culprit < end.robots.size()) robots.push_back(own.culprit);
       give_event(sink, "success", {end.t_ns, end.t_ns}, robots,
-                 "robot " + std::to_string(robot) + " failed: " +
-                     (by_contact ? reason_of_contact(contacts_.last_contact(robot)) : reason(own.failure)));
+                 "robot " + std::to_string(robot) +
+                     " failed: " + (by_contact ? contacts_.words(robot, own) : std::string(reason(own.failure))));
     }
     give(sink, "success", &mean_of_defined, success);
     sink.system("trial_success", least_of_defined(success));
@@ -93,12 +93,6 @@ class Success final : public Metric {
 
   // NaN stays NaN.
   static double most_one(double value) { return value > 1.0 ? 1.0 : value; }
-
-  static const char* reason_of_contact(std::uint32_t kind) {
-    return kind == DMRP_CONTACT_ROBOT    ? "stood after hitting another robot"
-           : kind == DMRP_CONTACT_PERSON ? "stood after hitting a person"
-                                         : "stood after hitting a wall or furniture";
-  }
 
   static const char* reason(std::uint32_t failure) {
     switch (failure) {

@@ -169,7 +169,7 @@ TEST_CASE("a robot that stands after a contact failed by the contact") {
   trial.sample(0.0, robots).events(all);
   // 0 and 1 into each other, to their end; 2 against a wall, once; 3 likewise, but it drives on; 4 was stuck before
   trial.sample(10.0, robots)
-      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, begins | fault_a | fault_b),
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, begins | fault_a),
                  contact(DMRP_CONTACT_STATIC, 2, 0, begins | fault_a), contact(DMRP_CONTACT_STATIC, 3, 0, begins)})
       .events({becomes(4, stuck), becomes(7, stuck)});
   trial.sample(12.0, robots)
@@ -179,7 +179,8 @@ TEST_CASE("a robot that stands after a contact failed by the contact") {
       .events({becomes(0, stuck), becomes(1, stuck), becomes(2, stuck)});
   trial.sample(55.0, robots).contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0)});
   trial.sample(60.0, robots)
-      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0), contact(DMRP_CONTACT_PERSON, 5, 0, begins)})
+      .contacts({contact(DMRP_CONTACT_ROBOT, 0, 1, 0), contact(DMRP_CONTACT_PERSON, 5, 0, begins),
+                 contact(DMRP_CONTACT_PERSON, 7, 0, begins)})  // 7 was stuck before
       .events({becomes(3, stuck)});
   trial.end(60.0, std::vector<double>(8, never));
   trial.failure(0, DMRP_FAILURE_BLOCKED_ROBOT, 1).failure(1, DMRP_FAILURE_BLOCKED_ROBOT, 0);
@@ -197,9 +198,10 @@ TEST_CASE("a robot that stands after a contact failed by the contact") {
   REQUIRE(success.events.size() == 8);
   CHECK(success.events[0].text == "robot 0 failed: stood after hitting another robot");
   CHECK(success.events[0].robots == std::vector<std::uint32_t>{0});
+  CHECK(success.events[1].text == "robot 1 failed: stood after another robot hit it");
   CHECK(success.events[2].text == "robot 2 failed: stood after hitting a wall or furniture");
   CHECK(success.events[3].text == "robot 3 failed: stuck");
-  CHECK(success.events[5].text == "robot 5 failed: stood after hitting a person");
+  CHECK(success.events[5].text == "robot 5 failed: touched a person at its end");
   CHECK(success.events[6].text == "robot 6 failed: held behind another robot");
 }
 
