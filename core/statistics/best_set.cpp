@@ -174,9 +174,8 @@ bool non_inferior(std::span<const double> differences, const Criterion& criterio
   if (std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) < rounding_error; }))
     return true;
   if (criterion.bounds) {
-    const double span = criterion.bounds->high - criterion.bounds->low;
-    for (double& value : values) value = std::clamp(0.5 + 0.5 * value / span, 0.0, 1.0);
-    return span * (2.0 * betting_lower_bound(values) - 1.0) > -criterion.margin;
+    const PaddedMean padded = padded_mean(values, criterion.bounds->high - criterion.bounds->low, significance);
+    return padded.mean - padded.half > -criterion.margin;
   }
   if (values.size() < fewest_for_bootstrap_t) return false;
   const double error = sample_sd(values) / std::sqrt(static_cast<double>(values.size()));

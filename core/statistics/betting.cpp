@@ -54,8 +54,4 @@ Interval betting_interval(std::span<const double> values) {
   return {lower_bound(values, significance / 2.0), 1.0 - lower_bound(mirrored(values), significance / 2.0)};
 }
 
-double betting_lower_bound(std::span<const double> values) {
-  return values.empty() ? undefined : lower_bound(values, significance);
-}
-
 }  // namespace dmrp::core

@@ -16,7 +16,4 @@ namespace dmrp::core {
 // 95 % of the mean; always within [0, 1], closed.
 Interval betting_interval(std::span<const double> values);
 
-// One-sided, 95 %: the mean is not below it.
-double betting_lower_bound(std::span<const double> values);
-
 }  // namespace dmrp::core

@@ -63,7 +63,7 @@ Interval bootstrap_t_interval(std::span<const double> values, double center, std
   std::vector<Moments> strata(resampling.strata());
   const MeanAndError observed = resampled(
       values, center, [](std::size_t) { return 1.0; }, resampling, strata);
-  if (!(observed.error > 0.0)) return {center, center};
+  if (!(observed.error > 0.0)) return {};  // equal values show no spread
   std::vector<double> studentised;
   for (std::size_t i = 0; i < resampling.resamples(); ++i) {
     const auto counts = resampling.counts(i);
@@ -110,11 +110,28 @@ MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const doubl
   return difference_of_tasks(differences, bounds, resampling);
 }
 
+PaddedMean padded_mean(std::span<const double> differences, double span, double one_sided) {
+  std::vector<double> padded(differences.begin(), differences.end());
+  padded.insert(padded.end(), {span, -span});
+  const double error = sample_sd(padded) / std::sqrt(static_cast<double>(padded.size()));
+  return {mean(padded), student_quantile(padded.size(), one_sided) * error};
+}
+
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling) {
-  Bounds of_differences;
-  if (bounds) of_differences = Interval{bounds->low - bounds->high, bounds->high - bounds->low};
-  return mean_of_tasks(differences, of_differences, resampling);
+  if (!bounds) return mean_of_tasks(differences, {}, resampling);
+  std::vector<double> defined;
+  for (const double value : resampling.by_observation(differences))
+    if (!std::isnan(value)) defined.push_back(value);
+  MeanOfTasks result;
+  result.n = static_cast<std::uint32_t>(defined.size());
+  if (defined.empty()) return result;
+  result.mean = mean(defined);
+  result.sd = sample_sd(defined);
+  const double span = bounds->high - bounds->low;
+  const PaddedMean padded = padded_mean(defined, span, significance / 2.0);
+  result.interval = {std::max(-span, padded.mean - padded.half), std::min(span, padded.mean + padded.half)};
+  return result;
 }
 
 double rule_of_three(std::uint32_t n) {

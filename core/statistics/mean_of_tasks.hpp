@@ -28,17 +28,27 @@ struct MeanOfTasks {
 
 // The mean over observations (resampling.hpp). Its interval: of bounded values by betting (betting.hpp), from one
 // observation on; of unbounded ones by the bootstrap-t (Efron and Tibshirani 1993, section 12.5) from ten on, at
-// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, the interval is that value: the data show no spread.
+// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, there is none: the data show no spread.
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
 
-// The mean of b - a, over tasks in which both are defined. `bounds`: of the values; the differences lie within the span between
-// them, and the betting interval is that of the difference mapped to [0, 1].
+// The mean of b - a, over observations in which both are defined. `bounds`: of the values. The interval of bounded ones is
+// Student's over n + 2 observations, two of which are the largest differences that bounds allow, up and down: so that one
+// rare difference does not decide (as Agresti and Coull add successes and failures to shares: The American Statistician 52,
+// 1998). It stays within these bounds.
 MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
                                 const Resampling& resampling);
 
 // Of differences that are already paired (the times of robots that arrived with both).
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling);
+
+// Student's bound at this one-sided significance for the mean of differences, with those two observations added: so far
+// from their mean. `span`: the largest difference.
+struct PaddedMean {
+  double mean = undefined;  // of n + 2 values
+  double half = undefined;  // from it to either bound
+};
+PaddedMean padded_mean(std::span<const double> differences, double span, double one_sided);
 
 // The largest share that n tasks without a single case allow, at 95 %: 1 - 0.05^(1/n), about 3 / n (Hanley, Lippman-Hand:
 // If nothing goes wrong, is everything all right?, JAMA 249, 1983). 1 without tasks.

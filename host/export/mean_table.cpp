@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -258,7 +259,8 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
         const core::MeanOfTasks over_tasks = values.over_tasks(cell, metric, column.metric);
         shown.defined = static_cast<std::uint32_t>(found.size());
         if (!found.empty()) shown.value = column.median ? core::median(found) : over_tasks.mean;
-        if (values.is_share(column.metric) && over_tasks.n > 1) shown.interval = over_tasks.interval;
+        if (over_tasks.n > 1 && !column.median && !std::isnan(over_tasks.interval.low))
+          shown.interval = over_tasks.interval;
         if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())
           if (const auto spreads = values.of(cell, *spread, column.spread); !spreads.empty())
             shown.spread = core::mean(spreads);

@@ -37,7 +37,7 @@ struct TableCell {
   std::optional<double>
       value;  // the mean over observations, or the trials' median by the column; none: undefined or no trial
   std::optional<double> spread;
-  std::optional<core::Interval> interval;  // of the mean of a share, from two observations on
+  std::optional<core::Interval> interval;  // of the mean, from two observations on
   std::uint32_t defined = 0;
   std::uint32_t trials = 0;
   bool best = false;  // best_marks.hpp

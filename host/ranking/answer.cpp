@@ -163,27 +163,32 @@ class Contest {
             criterion.share() ? PairedTest::sign_flip : PairedTest::signed_rank, observations_.resampling));
   }
 
-  core::BestSet best_set(const core::Resampling& resampling) const {
+  // `all`: the entries as ranked.
+  core::BestSet best_set(const core::Resampling& resampling, const std::vector<RankedCombination>& all) const {
     std::vector<core::Criterion> criteria;
     for (const Criterion& one : measures_.criteria()) {
+      std::vector<double> means;
+      for (const RankedCombination& entry : all) means.push_back(entry.means[criteria.size()]);
       core::Criterion& by = criteria.emplace_back();
       by.differences = [this, one](std::size_t a, std::size_t b) { return differences(order_[a], order_[b], one); };
       by.higher_is_better = one.share();
       by.score = one.kind == Criterion::Kind::time ? core::PairedScore::ranks : core::PairedScore::mean;
-      by.margin = one.share() ? tolerated_share : one.kind == Criterion::Kind::delay ? tolerated_delay_s : 0.0;
+      by.margin = one.share()                          ? tolerated_share
+                  : one.kind == Criterion::Kind::delay ? tolerated_delay_s
+                                                       : tolerated_time_share * core::mean(means);
       by.bounds = bounds_of_values(one.share());
     }
     return core::best_set(order_.size(), criteria, resampling);
   }
 
   void find_best(const Answer& answer, std::vector<RankedCombination>& all) const {
-    const core::BestSet best = best_set(observations_.resampling);
+    const core::BestSet best = best_set(observations_.resampling, all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].standing = best.excluded[i] ? Standing::worse : Standing::may_be_best;
       if (best.excluded[i]) all[i].decided = best.excluded[i]->criterion;
     }
     if (!answer.in_general) return;
-    const core::BestSet general = best_set({observations_.world_of, core::Scope::in_general});
+    const core::BestSet general = best_set({observations_.world_of, core::Scope::in_general}, all);
     for (std::size_t i = 0; i < all.size(); ++i) all[i].best_in_general = !general.excluded[i];
   }
 

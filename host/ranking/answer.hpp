@@ -90,6 +90,7 @@ std::optional<std::uint64_t> observations_needed(const Answer& answer, double di
 // Mean differences that decide nothing: then the next criterion may tell.
 inline constexpr double tolerated_share = 0.05;
 inline constexpr double tolerated_delay_s = 0.5;
+inline constexpr double tolerated_time_share = 0.05;  // of the mean time of all
 
 // Over everything, then, if there are several, for each scenario, number of robots and pedestrian model. Leaves out
 // answers about fewer than two combinations, and is empty if the metrics of the layout were not measured.

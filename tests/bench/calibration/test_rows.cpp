@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "core/statistics/best_set.hpp"
+#include "core/statistics/level_effects.hpp"
 #include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/rank_correlation.hpp"
 #include "core/statistics/sign_flip.hpp"
@@ -71,6 +75,16 @@ void add_non_inferiority(std::vector<Row>& rows, std::size_t n) {
   }));
 }
 
+// Levels that are alike.
+void add_level_effects(std::vector<Row>& rows, std::size_t n) {
+  for (const std::size_t levels : {2u, 4u})
+    rows.push_back(level("main effect", fmt::format("{} equal levels' shares", levels), n, [=](Stream& random) {
+      const auto effects = core::level_effects(drawn_shares(random, levels, n));
+      return Outcome{std::any_of(effects.begin(), effects.end(),
+                                 [](const core::LevelEffect& one) { return one.p <= core::significance; })};
+    }));
+}
+
 void add_correlations(std::vector<Row>& rows, std::size_t n) {
   for (const double agreement : {0.6, 0.9})
     rows.push_back(level(
@@ -89,6 +103,7 @@ std::vector<Row> test_rows() {
   std::vector<Row> rows;
   for (const std::size_t n : {std::size_t{10}, std::size_t{40}}) add_paired_tests(rows, n);
   for (const std::size_t n : {std::size_t{10}, std::size_t{40}, std::size_t{100}}) add_non_inferiority(rows, n);
+  for (const std::size_t n : {std::size_t{10}, std::size_t{20}, std::size_t{40}}) add_level_effects(rows, n);
   for (const std::size_t n : {std::size_t{6}, std::size_t{20}}) add_correlations(rows, n);
   return rows;
 }
