@@ -26,7 +26,7 @@ namespace {
 
 // Intervals of shares need no resamples.
 core::Resampling one_world(std::size_t tasks) {
-  return {std::vector<std::uint32_t>(observations), core::Scope::these_worlds, 0};
+  return {std::vector<std::uint32_t>(tasks), core::Scope::these_worlds, 0};
 }
 
 constexpr std::uint64_t halvings = 100;
@@ -163,12 +163,12 @@ double half_agreement(const Criteria& criteria, const std::vector<std::vector<do
   std::vector<double> found;
   for (std::uint64_t i = 0; i < halvings; ++i) {
     toolkit::Stream stream(i, "discrimination.halves");
-    std::vector<std::size_t> order(observations);
+    std::vector<std::size_t> order(tasks);
     for (std::size_t task = 0; task < tasks; ++task) order[task] = task;
     stream.shuffle(order);
-    std::vector<char> first(observations, 0);
+    std::vector<char> first(tasks, 0);
     for (std::size_t k = 0; k < tasks / 2; ++k) first[order[k]] = 1;
-    std::vector<char> second(observations, 1);
+    std::vector<char> second(tasks, 1);
     for (std::size_t task = 0; task < tasks; ++task) second[task] = first[task] ? 0 : 1;
     const double tau =
         kendall_tau(positions_over(criteria, shares, times, first), positions_over(criteria, shares, times, second));
