@@ -25,7 +25,7 @@ IFS='|' read -r n defined trials low high <<<"$row"
 interval=$(LC_ALL=C printf '[%.2f, %.2f]' "$low" "$high")
 grep -F "together + DWA" "$scratch/terminal" | grep -qF "0.96 $interval" ||
   fail "the terminal has another interval than $interval: $(cat "$scratch/terminal")"
-grep -q "over 5 tasks" "$scratch/terminal" || fail "the terminal does not say that there are five tasks"
+grep -q "over 5 drawn tasks x 5 crowds" "$scratch/terminal" || fail "the terminal does not say that there are five tasks"
 
 # the report's data
 expect_status 0 "$host" report "$run"
@@ -34,7 +34,7 @@ found=$(sqlite3 :memory: "WITH data AS (SELECT CAST(readfile('$scratch/data.json
     metric AS (SELECT key FROM data, json_each(j, '\$.metrics') WHERE json_extract(value, '\$.name') = 'success'),
     combination AS (SELECT key FROM data, json_each(j, '\$.combinations') WHERE
       json_extract(value, '\$.local_controller') = 'DWA' AND json_extract(value, '\$.global_planner') = 'together')
-  SELECT json_extract(s, '\$.tasks'), printf('[%.2f, %.2f]', json_extract(s, '\$.low'), json_extract(s, '\$.high'))
+  SELECT json_extract(s, '\$.n'), printf('[%.2f, %.2f]', json_extract(s, '\$.low'), json_extract(s, '\$.high'))
     FROM (SELECT json_extract(j, '\$.summaries[' || combination.key || '][' || metric.key || ']') AS s
       FROM data, combination, metric)")
 [[ $found == "5|$interval" ]] || fail "the report has $found, not $interval"
@@ -42,7 +42,7 @@ found=$(sqlite3 :memory: "WITH data AS (SELECT CAST(readfile('$scratch/data.json
 # export
 expect_status 0 "$host" export "$run" --latex --metric success --rows controller,planner
 grep -F "together + DWA" "$scratch/stdout" | grep -qF "0.96 $interval" || fail "export has no $interval: $(cat "$scratch/stdout")"
-grep -q "means over 5 drawn tasks x 20 crowds" "$scratch/stdout" || fail "the caption does not say n"
+grep -q "means over 5 drawn tasks x 5 crowds" "$scratch/stdout" || fail "the caption does not say n"
 
 # compare: n, and the interval of a share's difference is that of the page
 cp -r "$run" "$scratch/other"
