@@ -34,8 +34,8 @@ tr -s '\n ' ' ' <"$scratch/stdout" | grep -q 'place_safe_success: from low (0) t
   fail "the table has no place"
 
 # place CONTROLLER: mean, ci_low, ci_high
-place() { awk -F, -v of="$1" '$4 == of && $6 == "place_safe_success" { print $10, $13, $14 }' "$scratch/run/summary.csv"; }
-[[ $(head -1 "$scratch/run/summary.csv" | cut -d, -f4,6,10,13,14) == "local_controller,metric,mean,ci_low,ci_high" ]] ||
+place() { awk -F, -v of="$1" '$4 == of && $6 == "place_safe_success" { print $12, $15, $16 }' "$scratch/run/summary.csv"; }
+[[ $(head -1 "$scratch/run/summary.csv" | cut -d, -f4,6,12,15,16) == "local_controller,metric,mean,ci_low,ci_high" ]] ||
   fail "summary.csv has other columns"
 [[ $(place between) == "1 1 1" ]] || fail "the place should be 1, not $(place between)"
 [[ $(place low) == "  " && $(place high) == "  " ]] || fail "bounds have no places"

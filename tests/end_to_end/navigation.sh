@@ -95,4 +95,4 @@ outcomes=$(query "$scratch/route_one" "SELECT group_concat(value || ':' || outco
 sed -e 's|use = "./standing/scenario.toml"|use = "crossing"\nrobots = 2\ntasks = "drawn"|' -e 's/^trials = 1/trials = 3/' \
   -e '$a [[local_controller]]\nuse = "dmrp.controller.stop_and_wait"' "$scratch/route.toml" >"$scratch/tasks.toml"
 expect_status 0 "$host" "$scratch/tasks.toml" --out "$scratch/tasks"
-grep -q 'In this world, over 3 tasks' "$scratch/stdout" || fail "12 trials of 3 tasks: $(grep ' over ' "$scratch/stdout")"
+grep -q '^  3 drawn tasks in this world' "$scratch/stdout" || fail "12 trials of 3 tasks: $(grep ' over ' "$scratch/stdout")"
