@@ -167,7 +167,7 @@ resolutions() {
   for world in mall library office hospital warehouse; do
     [[ -e $out/$world.plans/summary.csv ]] || continue
     awk -F, -v world="$world" '
-      $6 ~ /^root_conflicts/ { mean[$3, $6] = $10; if (!($3 in seen)) { seen[$3] = 1; order[++n] = $3 } }
+      $6 ~ /^root_conflicts/ { mean[$3, $6] = $12; if (!($3 in seen)) { seen[$3] = 1; order[++n] = $3 } }
       END {
         for (i = 1; i <= n; ++i)
           printf "| %s | %s | %.1f | %.1f | %.1f | %.1f |\n", world, order[i], mean[order[i], "root_conflicts"],
