@@ -56,7 +56,8 @@ struct BestSet {
 BestSet best_set(std::size_t entries, std::span<const Criterion> criteria, const Resampling& resampling);
 
 // Whether differences (of the entry minus the other, by task) show that the entry's mean is not worse by more than the
-// margin: by Student's one-sided 95 % bound, of bounded values over n + 2 (mean_of_tasks.hpp), of unbounded ones (from ten observations).
+// margin: by Student's one-sided 95 % bound, of bounded values over n + 2 (mean_of_tasks.hpp), of unbounded ones from ten
+// observations on.
 // Equal in every observation: yes; n of them allow a difference by the rule of three, which may be larger than the margin.
 bool non_inferior(std::span<const double> differences, const Criterion& criterion, const Resampling& resampling);
 

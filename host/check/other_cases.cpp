@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t smallest_block = 16;  // that the allocator hands out
 
-// In which memory in use is compared.
+// Memory in use is compared over so many lives of an instance.
 std::size_t lifecycles() {
   return most_ticks(20);
 }

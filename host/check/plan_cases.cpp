@@ -57,7 +57,7 @@ class Drive {
 
   const Outputs& outputs() const { return rehearsal_.outputs(); }
 
-  // As drive(), with a path that ends there, where it must stop.
+  // Drives on a path that ends at this waypoint, and fails a robot that does not stop there.
   double drive_to(std::uint32_t end, std::uint32_t ticks) {
     hand(end);
     const double reached_m = drive(ticks);

@@ -195,8 +195,9 @@ void* fenced_malloc(std::size_t bytes) {
   return block ? block : std::malloc(bytes);
 }
 void* fenced_calloc(std::size_t count, std::size_t bytes) {
-  // new pages are zero
-  void* const block = fenced_calls->in_call() && bytes < (1u << 30) ? fence::allocate(count * bytes) : nullptr;
+  std::size_t all = 0;
+  const bool fits = !__builtin_mul_overflow(count, bytes, &all);
+  void* const block = fits && fenced_calls->in_call() ? fence::allocate(all) : nullptr;  // new pages are zero
   return block ? block : std::calloc(count, bytes);
 }
 void fenced_free(void* block) {

@@ -125,7 +125,7 @@ void same_seed(Examination& it) {
   expect_same(it, alone(it, it.seed()), alone(it, it.seed()));
 }
 
-// In the earlier ones robots and people are others, or the same in another hall, or behind a wall, where nobody walks.
+// The earlier trials have other robots and people, another hall, or a wall behind which nobody walks.
 void after_another_trial(Examination& it) {
   const StageSettings earlier[] = {{.robots = 2, .people = 3},
                                    {.robots = 5, .people = 12, .is_large = true},

@@ -50,7 +50,7 @@ struct FactorEffects {
   const char* other;   // "planner"
   std::size_t others = 0;
   std::vector<std::string> levels;
-  std::vector<core::LevelEffect> effects;  // likewise: from the mean of the other levels
+  std::vector<core::LevelEffect> effects;  // by level, in the first criterion
 };
 
 // Over the trials of one scenario, number of robots and pedestrian model, or of several.
@@ -84,7 +84,8 @@ inline constexpr std::uint32_t least_for_deviation = 10;
 // "CBS + DWA"
 std::string combination_name(const RankedCombination& one);
 
-// Observations that would show this difference in the first criterion with a probability of 80 %; none where nothing deviates.
+// Observations that would show this difference in the first criterion with a probability of 80 %; none where nothing
+// deviates.
 std::optional<std::uint64_t> observations_needed(const Answer& answer, double difference);
 
 // Mean differences that decide nothing: then the next criterion may tell.

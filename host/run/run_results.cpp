@@ -101,16 +101,26 @@ std::string answer_block(const Answer& answer, std::span<const CombinationFailur
   return block;
 }
 
-// Of the combination with the fewest observations.
+// Says what the combination with the fewest observations has met, if that is too little.
 std::string caution_about_few(std::span<const CombinationSummary> summaries) {
   std::size_t least = fewest_observations;
-  for (const CombinationSummary& summary : summaries) least = std::min<std::size_t>(least, summary.trials);
-  return least < fewest_observations
-             ? fmt::format(
-                   "caution: {}. For a comparison: [[scenario]] robots = 8, tasks = {{ drawn = 40 }} and "
-                   "[experiment] trials = 40",
-                   least == 1 ? "one trial" : fmt::format("{} trials", least))
-             : "";
+  std::string words;
+  for (const CombinationSummary& summary : summaries) {
+    MetricSummary most;
+    for (const MetricSummary& metric : summary.metrics)
+      if (metric.n > most.n) most = metric;
+    if (most.n >= least) continue;
+    least = most.n;
+    const bool has_each_once = most.n == summary.trials || most.n == 0;
+    words = !has_each_once        ? met_words(most.met)
+            : summary.trials == 1 ? "one trial"
+                                  : fmt::format("{} trials", summary.trials);
+  }
+  return words.empty() ? ""
+                       : fmt::format(
+                             "caution: {}. For a comparison: [[scenario]] robots = 8, tasks = {{ drawn = 40 }} and "
+                             "[experiment] trials = 40",
+                             words);
 }
 
 }  // namespace

@@ -67,14 +67,14 @@ class ControllerCalls {
     return false;
   }
 
-  // What a host hands over whose order, or window, ends the path there.
+  // A host whose order, or window, ends the path there hands this over.
   PathUpdate cut_path(std::uint32_t robot) const {
     const std::span<const dmrp_waypoint> whole = plan_.paths[robot];
     const std::size_t count = std::min<std::size_t>(whole.size(), std::size_t{stage_.path_end} + 1);
     return {whole.first(count), count < whole.size() ? DMRP_PATH_PARTIAL : 0u, tick_ > 1 ? DMRP_PATH_CONTINUES : 0u};
   }
 
-  // Where the robot is on the path that its controller has.
+  // The dispatcher's guidance refers to the whole path: here it ends where the controller's path does.
   Guidance guidance(std::uint32_t robot) const {
     Guidance guidance = dispatcher_.guidance(robot);
     if (const std::size_t end = stage_.path_end; end + 1 < plan_.paths[robot].size()) {

@@ -99,8 +99,9 @@ void Fence::release() {
 
 void* fence::allocate(std::size_t bytes) {
   constexpr std::size_t most_blocks = 20'000;  // the kernel has a limit of mappings
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
   const std::lock_guard lock(mutex);
-  if (heap_blocks == most_blocks) return nullptr;
+  if (heap_blocks == most_blocks || bytes > most_bytes) return nullptr;
   if (!heap) heap.emplace();
   const std::size_t padded = (bytes + 15) / 16 * 16;  // what a compiler may take for granted
   const std::size_t pages = whole_pages(padded + 16);

@@ -41,7 +41,7 @@ namespace fence {
 const char* breach(const void* address);
 
 // A block of memory of the plugin's own, which ends where a page begins that nobody may touch (16 bytes are the unit).
-// nullptr if there are too many. Once it is free, nobody may touch it any more.
+// nullptr if there are too many, or if it is larger than 1 GB. Once it is free, nobody may touch it any more.
 void* allocate(std::size_t bytes);
 bool has_allocated(const void* block);
 std::size_t bytes_of(const void* block);

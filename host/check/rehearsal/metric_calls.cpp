@@ -157,7 +157,7 @@ class MetricCalls {
     return events;
   }
 
-  // At some steps one robot gets a part of its path.
+  // One robot gets a part of its path at every third step.
   std::vector<dmrp_route> routes_handed() {
     if (!plan_.exists() || step_ % 3 != 0) return {};
     const auto robot = static_cast<std::uint32_t>(step_ / 3 % robot_count_);

@@ -20,7 +20,7 @@ constexpr std::uint32_t steps_between_plans = 3;  // unless there are windows
 constexpr int most_plans = 3;
 constexpr int most_windows = 12;
 
-// Where a path is at a time.
+// Where a robot that keeps to this path is at a time.
 dmrp_vec2 place_on(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   const auto next = std::find_if(path.begin(), path.end(), [&](const dmrp_waypoint& w) { return w.t_ns > t_ns; });
   if (next == path.begin()) return {path.front().x, path.front().y};
@@ -118,7 +118,11 @@ class PlannerCalls {
         [&](auto from, auto to, double radius_m) { return stage_.variant.geometry->sweep_is_free(from, to, radius_m); },
         answer.partial);
     std::string breach = breach_of(verdict, info_);
-    const auto rests = [](const auto& path) { return path.size() == 1 || path.front().x == path.back().x; };
+    const auto rests = [](const std::vector<dmrp_waypoint>& path) {
+      return std::all_of(path.begin(), path.end(), [&](const dmrp_waypoint& waypoint) {
+        return waypoint.x == path.front().x && waypoint.y == path.front().y;
+      });
+    };
     for (std::size_t i = 0; i < answer.paths.size(); ++i)
       for (const dmrp_waypoint& waypoint : answer.paths[i])
         if (breach.empty() && std::abs(waypoint.theta) > most_heading_rad)
@@ -129,7 +133,7 @@ class PlannerCalls {
     for (std::size_t i = 0; i < robots_.size(); ++i)
       one_drives |= robots_[i].state == DMRP_ROBOT_ACTIVE && !is_at(answer.paths[i].front(), robots_[i].goals.back());
     if (breach.empty() && problem.window_steps > 0 && all_rest && one_drives)
-      breach = "no path of the window moves, and no robot is at its last goal";
+      breach = "no path of the window moves, though a robot is not at its last goal";
     if (!breach.empty()) throw PluginFault(fault_kind::bad_output, instance_.site("plan", 0), breach);
   }
 
@@ -163,7 +167,7 @@ class PlannerCalls {
     return std::hypot(waypoint.x - goal.pose.x, waypoint.y - goal.pose.y) < 1e-6;
   }
 
-  // Where the stage's world, which stands still, has the robot: host's snapping begins there.
+  // The robot's place in the stage's world, which stands still. From there stage_problem() looks for a free cell.
   dmrp_vec2 stage_place(std::size_t robot) const {
     const dmrp_pose& pose = stage_.world.robots()[robot].pose;
     return {pose.x, pose.y};

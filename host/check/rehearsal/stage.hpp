@@ -82,9 +82,9 @@ class Stage {
 
 inline constexpr std::uint32_t usual_ticks = StageSettings{}.ticks;
 
-// Calls of a trial, fewer for plugins that take long: `wanted`, or a part of it.
+// Returns how many calls a trial has: `wanted`, or a part of it for plugins whose calls take long.
 std::uint32_t most_ticks(std::uint32_t wanted);
-// In this process rehearsals of 25 ticks have so many from now on.
+// Shortens all rehearsals of this process in proportion: those of 25 ticks get `most`, from 1 to 25.
 void limit_ticks(std::uint32_t most);
 
 // Wall time for a call: much, so that only should_stop() of a case ends a call early.
