@@ -174,8 +174,8 @@ bool non_inferior(std::span<const double> differences, const Criterion& criterio
   if (std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) < rounding_error; }))
     return true;
   if (criterion.bounds) {
-    const PaddedMean padded = padded_mean(values, criterion.bounds->high - criterion.bounds->low, significance);
-    return padded.mean - padded.half > -criterion.margin;
+    const PaddedMean padded = padded_mean(values, criterion.bounds->high - criterion.bounds->low);
+    return padded.mean - padded.bound(significance) > -criterion.margin;
   }
   if (values.size() < fewest_for_bootstrap_t) return false;
   const double error = sample_sd(values) / std::sqrt(static_cast<double>(values.size()));

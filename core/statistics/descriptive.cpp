@@ -44,6 +44,14 @@ double student_quantile(std::size_t n, double probability) {
   return boost::math::quantile(boost::math::complement(distribution, probability));
 }
 
+double student_two_sided(std::size_t n, double t) {
+  assert(n >= 2);
+  if (std::isnan(t)) return 1.0;
+  if (std::isinf(t)) return 0.0;
+  const boost::math::students_t distribution(static_cast<double>(n - 1));
+  return 2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(t)));
+}
+
 double quantile_of_sorted(std::span<const double> ascending, double p) {
   assert(std::is_sorted(ascending.begin(), ascending.end()) && p >= 0.0 && p <= 1.0);
   if (ascending.empty()) return undefined;

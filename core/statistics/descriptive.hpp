@@ -28,6 +28,8 @@ double median(std::span<const double> values);     // needs one value; the mean 
 
 // Student's t for the mean of n >= 2 normal values: exceeded with this probability.
 double student_quantile(std::size_t n, double probability);
+// With which probability it is at least |t| away from 0; 1 if t is undefined.
+double student_two_sided(std::size_t n, double t);
 
 // The p-quantile of ascending values, with linear interpolation (Hyndman and Fan's type 7).
 double quantile_of_sorted(std::span<const double> ascending, double p);

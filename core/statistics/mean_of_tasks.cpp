@@ -56,25 +56,44 @@ MeanAndError resampled(std::span<const double> values, double center, const Coun
   return mean_and_error(strata);
 }
 
-// Not nearer to the mean than Student's interval at either end: with long tails on both sides the bootstrap-t is too
-// narrow, with one it is not, where Student's is.
-Interval bootstrap_t_interval(std::span<const double> values, double center, std::size_t n,
-                              const Resampling& resampling) {
+// Of the mean of unbounded values: the bootstrap-t, not nearer to the mean than Student's interval at either end: with long
+// tails on both sides the bootstrap-t is too narrow, with one it is not, where Student's is. Below ten Student's alone.
+void add_interval(MeanOfTasks& result, std::span<const double> values, const Resampling& resampling) {
   std::vector<Moments> strata(resampling.strata());
   const MeanAndError observed = resampled(
-      values, center, [](std::size_t) { return 1.0; }, resampling, strata);
-  if (!(observed.error > 0.0)) return {};  // equal values show no spread
-  std::vector<double> studentised;
-  for (std::size_t i = 0; i < resampling.resamples(); ++i) {
-    const auto counts = resampling.counts(i);
-    const MeanAndError drawn = resampled(
-        values, center, [&](std::size_t k) { return static_cast<double>(counts[k]); }, resampling, strata);
-    studentised.push_back((drawn.mean - observed.mean) / std::fmax(drawn.error, least_error * observed.error));
+      values, result.mean, [](std::size_t) { return 1.0; }, resampling, strata);
+  if (!(observed.error > 0.0)) return;  // equal values show no spread
+  const double t = result.mean / observed.error;
+  const double student = student_quantile(result.n, significance / 2.0);
+  Interval errors{student, student};  // of the mean, below it and above
+  result.p = student_two_sided(result.n, t);
+  if (result.n >= fewest_for_bootstrap_t) {
+    std::vector<double> studentised;
+    for (std::size_t i = 0; i < resampling.resamples(); ++i) {
+      const auto counts = resampling.counts(i);
+      const MeanAndError drawn = resampled(
+          values, result.mean, [&](std::size_t k) { return static_cast<double>(counts[k]); }, resampling, strata);
+      studentised.push_back((drawn.mean - observed.mean) / std::fmax(drawn.error, least_error * observed.error));
+    }
+    const auto beyond = std::count_if(studentised.begin(), studentised.end(),
+                                      [&](double drawn) { return t > 0.0 ? drawn >= t : drawn <= t; });
+    const double share = static_cast<double>(beyond) / static_cast<double>(studentised.size());
+    result.p = std::fmax(result.p, std::fmin(1.0, 2.0 * share));
+    const Interval quantiles = percentile_interval(std::move(studentised));
+    errors = {std::fmax(student, quantiles.high), std::fmax(student, -quantiles.low)};
   }
-  const Interval quantiles = percentile_interval(std::move(studentised));
-  const double student = student_quantile(n, significance / 2.0);
-  return {center - std::fmax(student, quantiles.high) * observed.error,
-          center + std::fmax(student, -quantiles.low) * observed.error};
+  result.interval = {result.mean - errors.low * observed.error, result.mean + errors.high * observed.error};
+}
+
+// Sets n, mean and deviation of the defined values, which it returns.
+std::vector<double> describe(std::span<const double> values, MeanOfTasks& result) {
+  std::vector<double> defined;
+  for (const double value : values)
+    if (!std::isnan(value)) defined.push_back(value);
+  result.n = static_cast<std::uint32_t>(defined.size());
+  result.mean = mean(defined);
+  result.sd = sample_sd(defined);
+  return defined;
 }
 
 Interval interval_within(std::vector<double> values, const Interval& bounds) {
@@ -88,17 +107,12 @@ Interval interval_within(std::vector<double> values, const Interval& bounds) {
 
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling) {
   const std::vector<double> values = resampling.by_observation(by_task);
-  std::vector<double> defined;
-  for (const double value : values)
-    if (!std::isnan(value)) defined.push_back(value);
   MeanOfTasks result;
-  result.n = static_cast<std::uint32_t>(defined.size());
-  result.mean = mean(defined);
-  result.sd = sample_sd(defined);
+  std::vector<double> defined = describe(values, result);
   if (bounds && !defined.empty())
     result.interval = interval_within(std::move(defined), *bounds);
   else if (defined.size() >= fewest_for_bootstrap_t)
-    result.interval = bootstrap_t_interval(values, result.mean, result.n, resampling);
+    add_interval(result, values, resampling);
   return result;
 }
 
@@ -110,27 +124,24 @@ MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const doubl
   return difference_of_tasks(differences, bounds, resampling);
 }
 
-PaddedMean padded_mean(std::span<const double> differences, double span, double one_sided) {
+PaddedMean padded_mean(std::span<const double> differences, double span) {
   std::vector<double> padded(differences.begin(), differences.end());
   padded.insert(padded.end(), {span, -span});
-  const double error = sample_sd(padded) / std::sqrt(static_cast<double>(padded.size()));
-  return {mean(padded), student_quantile(padded.size(), one_sided) * error};
+  return {padded.size(), mean(padded), sample_sd(padded) / std::sqrt(static_cast<double>(padded.size()))};
 }
 
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling) {
-  if (!bounds) return mean_of_tasks(differences, {}, resampling);
-  std::vector<double> defined;
-  for (const double value : resampling.by_observation(differences))
-    if (!std::isnan(value)) defined.push_back(value);
+  const std::vector<double> values = resampling.by_observation(differences);
   MeanOfTasks result;
-  result.n = static_cast<std::uint32_t>(defined.size());
-  if (defined.empty()) return result;
-  result.mean = mean(defined);
-  result.sd = sample_sd(defined);
+  const std::vector<double> defined = describe(values, result);
+  if (!bounds && result.n >= fewest_for_student) add_interval(result, values, resampling);
+  if (!bounds || defined.empty()) return result;
   const double span = bounds->high - bounds->low;
-  const PaddedMean padded = padded_mean(defined, span, significance / 2.0);
-  result.interval = {std::max(-span, padded.mean - padded.half), std::min(span, padded.mean + padded.half)};
+  const PaddedMean padded = padded_mean(defined, span);
+  const double half = padded.bound(significance / 2.0);
+  result.interval = {std::max(-span, padded.mean - half), std::min(span, padded.mean + half)};
+  result.p = student_two_sided(padded.n, padded.mean / padded.error);
   return result;
 }
 

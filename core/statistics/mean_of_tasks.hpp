@@ -16,19 +16,25 @@ namespace dmrp::core {
 using Bounds = std::optional<Interval>;
 inline constexpr Interval share_bounds{0.0, 1.0};
 
-// Fewer unbounded values have no interval: theirs would be too narrow.
+// Fewer unbounded values have no interval: theirs would be too narrow. Differences have long tails on both sides, so that
+// Student's interval alone will do for some of fewer.
 inline constexpr std::size_t fewest_for_bootstrap_t = 10;
+inline constexpr std::size_t fewest_for_student = 5;
 
 struct MeanOfTasks {
   std::uint32_t n = 0;  // observations in which the value is defined: tasks, or worlds "in general"
   double mean = undefined;
   double sd = undefined;  // of the observations, with n - 1
   Interval interval;      // undefined: none
+  // Of the interval's own procedure, two-sided, that the mean is 0: below 0.05 where the interval excludes 0. Undefined of
+  // the mean of bounded values, and without an interval.
+  double p = undefined;
 };
 
 // The mean over observations (resampling.hpp). Its interval: of bounded values by betting (betting.hpp), from one
 // observation on; of unbounded ones by the bootstrap-t (Efron and Tibshirani 1993, section 12.5) from ten on, at
-// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, there is none: the data show no spread.
+// either end at least as far from the mean as Student's; none below. Where all unbounded values are equal, there is none:
+// the data show no spread.
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
 
 // The mean of b - a, over observations in which both are defined. `bounds`: of the values. The interval of bounded ones is
@@ -38,17 +44,20 @@ MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds,
 MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
                                 const Resampling& resampling);
 
-// Of differences that are already paired (the times of robots that arrived with both).
+// Of differences that are already paired (the times of robots that arrived with both). The interval of unbounded ones is
+// the bootstrap-t from ten observations on, Student's from five.
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling);
 
-// Student's bound at this one-sided significance for the mean of differences, with those two observations added: so far
-// from their mean. `span`: the largest difference.
+// Differences with those two observations added. `span`: the largest difference.
 struct PaddedMean {
-  double mean = undefined;  // of n + 2 values
-  double half = undefined;  // from it to either bound
+  std::size_t n = 0;  // with them
+  double mean = undefined;
+  double error = undefined;  // its standard error
+
+  double bound(double one_sided) const { return student_quantile(n, one_sided) * error; }  // so far from the mean
 };
-PaddedMean padded_mean(std::span<const double> differences, double span, double one_sided);
+PaddedMean padded_mean(std::span<const double> differences, double span);
 
 // The largest share that n tasks without a single case allow, at 95 %: 1 - 0.05^(1/n), about 3 / n (Hanley, Lippman-Hand:
 // If nothing goes wrong, is everything all right?, JAMA 249, 1983). 1 without tasks.

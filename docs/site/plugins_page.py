@@ -42,8 +42,9 @@ def in_brackets(parts, separator):
 
 def value_line(value):
     """Its unit, its better direction, its subjects beside the system."""
+    limits = limits_of({**value, "choices": []})
     parts = [
-        unit_of(value),
+        " ".join(part for part in (limits, unit_of(value)) if part),
         value["direction"] if value["direction"] != "none" else "",
         "robots" if "robot" in value["subjects"] else "",
         "people" if "pedestrian" in value["subjects"] else "",

@@ -96,7 +96,9 @@ Json value(const MetricValueSpec& spec) {
                                             {1u << DMRP_SUBJECT_ROBOT, "robot"},
                                             {1u << DMRP_SUBJECT_PEDESTRIAN, "pedestrian"}})},
           {"wall_clock", spec.wall_clock},
-          {"curve", spec.curve}};
+          {"curve", spec.curve},
+          {"minimum", bound(spec.minimum)},
+          {"maximum", bound(spec.maximum)}};
 }
 
 Json connectivity_name(std::uint32_t connectivity) {

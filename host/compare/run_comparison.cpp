@@ -104,9 +104,8 @@ MetricComparison compare_metric(const MeasuredTwice& metric, const BothRuns& run
   result.pairs = joint.situations;
   result.before = core::mean_of_tasks(joint.values[0], bounds, runs.observations.resampling).mean;
   result.after = core::mean_of_tasks(joint.values[1], bounds, runs.observations.resampling).mean;
-  result.difference = paired_difference(joint.differences(0, 1),
-                                        metric.before.counts_failures ? PairedTest::sign_flip : PairedTest::signed_rank,
-                                        runs.observations.resampling);
+  result.difference =
+      paired_difference(joint.differences(0, 1), PairedTest::mean, bounds, runs.observations.resampling);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/statistics/descriptive.hpp"
+#include "host/findings/metric_values.hpp"
 #include "host/results/system_values.hpp"
 
 namespace dmrp::host {
@@ -73,52 +74,6 @@ std::optional<std::size_t> index_of(std::span<const MetricColumn> metrics, const
     if (metrics[i].name == name) return i;
   return std::nullopt;
 }
-
-class Values {
- public:
-  Values(const SummaryLayout& layout, std::span<const MetricColumn> metrics, std::span<const TrialRecord> trials)
-      : layout_(layout),
-        trials_(trials),
-        values_(system_values(metrics, trials)),
-        observations_(observations_of(trials)),
-        plans_(observations_of(trials, Unit::plan)) {}
-
-  bool is_share(const std::string& name) const {
-    return std::find(layout_.counts_failures.begin(), layout_.counts_failures.end(), name) !=
-           layout_.counts_failures.end();
-  }
-
-  std::vector<double> of(const std::vector<std::size_t>& trials, std::size_t metric, const std::string& name) const {
-    std::vector<double> found;
-    for (const std::size_t trial : trials)
-      if (const auto value = value_of(trial, metric, is_share(name))) found.push_back(*value);
-    return found;
-  }
-
-  core::MeanOfTasks over_tasks(const std::vector<std::size_t>& trials, std::size_t metric,
-                               const std::string& name) const {
-    const bool share = is_share(name);
-    const auto value = [&](std::size_t trial) { return value_of(trial, metric, share); };
-    const bool of_plans = std::find(layout_.of_plans.begin(), layout_.of_plans.end(), name) != layout_.of_plans.end();
-    const Observations& observations = of_plans ? plans_ : observations_;
-    return core::mean_of_tasks(observation_means(observations, trials, value), bounds_of_values(share),
-                               observations.resampling);
-  }
-
-  Met met_by(const std::vector<std::size_t>& trials) const { return observations_.met_by(trials); }
-
- private:
-  std::optional<double> value_of(std::size_t trial, std::size_t metric, bool share) const {
-    if (values_[trial][metric]) return values_[trial][metric];
-    return share && trials_[trial].outcome == trial_outcome::fault ? std::optional(0.0) : std::nullopt;
-  }
-
-  const SummaryLayout& layout_;
-  std::span<const TrialRecord> trials_;
-  SystemValues values_;
-  Observations observations_;
-  Observations plans_;
-};
 
 // Rows by controller alone are means over planners: a task counts where every planner of the row has a plan, or a planner
 // that finds none for hard tasks would raise or lower them.
@@ -195,6 +150,12 @@ std::string table_caption(const MeanTable& table) {
                                   medians.empty() ? "" : ", medians of ", medians);
   if (any_cell([](const TableCell& cell) { return cell.interval.has_value(); }))
     words += fmt::format(" In brackets: 95 % intervals over {}s.", observation_name(table.met));
+  double at_most = core::undefined;
+  for (const TableRow& row : table.rows)
+    for (const TableCell& cell : row.cells) at_most = std::fmax(at_most, cell.at_most);
+  if (!std::isnan(at_most))
+    words += fmt::format(" 0 without brackets: in no {0} of the cell; of all {0}s at most {1:.0f} % have any.",
+                         observation_name(table.met), 100.0 * at_most);
   if (table.solved_alone) words += " Over the tasks for which every planner has a plan.";
   if (any_cell([](const TableCell& cell) { return cell.best; }))
     words += " Bold: with 95 % confidence better than all others of its column.";
@@ -232,11 +193,17 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
 
   const std::vector<BestMark> marks = best_marks(
       layout, metrics, trials, by_controller ? Contestants::planners_and_controllers : Contestants::planners);
-  const Values values(layout, metrics, trials);
+  const MetricValues values(kinds_of(layout), metrics, trials);
+  const auto defined = [&](const std::vector<std::size_t>& cell, std::size_t metric) {
+    std::vector<double> found;
+    for (const std::size_t trial : cell)
+      if (const auto value = values.of(trial, metric)) found.push_back(*value);
+    return found;
+  };
   std::vector<std::size_t> all;
   for (const auto& [place, cell] : cells) all.insert(all.end(), cell.begin(), cell.end());
 
-  MeanTable table{spec, {}, {}, {}, solved_alone, values.met_by(all)};
+  MeanTable table{spec, {}, {}, {}, solved_alone, observations_of(trials).met_by(all)};
   for (const SummaryTableColumn& column : spec.metrics) {
     const std::string& unit = metrics[*index_of(metrics, column.metric)].unit;
     table.units.push_back(unit == "1" ? "" : unit);
@@ -255,15 +222,15 @@ MeanTable make_mean_table(TableSpec spec, const SummaryLayout& layout, std::span
         TableCell shown;
         shown.trials = static_cast<std::uint32_t>(cell.size());
         const std::size_t metric = *index_of(metrics, column.metric);
-        const auto found = values.of(cell, metric, column.metric);
-        const core::MeanOfTasks over_tasks = values.over_tasks(cell, metric, column.metric);
+        const auto found = defined(cell, metric);
+        const core::MeanOfTasks over_tasks = values.mean(cell, metric);
         shown.defined = static_cast<std::uint32_t>(found.size());
         if (!found.empty()) shown.value = column.median ? core::median(found) : over_tasks.mean;
         if (over_tasks.n > 1 && !column.median && !std::isnan(over_tasks.interval.low))
           shown.interval = over_tasks.interval;
+        if (!column.median) shown.at_most = at_most(metrics[metric], over_tasks);
         if (const auto spread = index_of(metrics, column.spread); spread && !found.empty())
-          if (const auto spreads = values.of(cell, *spread, column.spread); !spreads.empty())
-            shown.spread = core::mean(spreads);
+          if (const auto spreads = defined(cell, *spread); !spreads.empty()) shown.spread = core::mean(spreads);
         shown.best = !cell.empty() && std::any_of(marks.begin(), marks.end(), [&](const BestMark& mark) {
           return is_marked(mark, column.metric, cell, trials, by_controller);
         });

@@ -38,6 +38,7 @@ struct TableCell {
       value;  // the mean over observations, or the trials' median by the column; none: undefined or no trial
   std::optional<double> spread;
   std::optional<core::Interval> interval;  // of the mean, from two observations on
+  double at_most = core::undefined;        // MetricSummary
   std::uint32_t defined = 0;
   std::uint32_t trials = 0;
   bool best = false;  // best_marks.hpp

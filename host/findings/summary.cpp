@@ -5,38 +5,34 @@
 #include <map>
 
 #include "host/results/csv.hpp"
-#include "host/results/system_values.hpp"
 
 namespace dmrp::host {
 namespace {
 
-MetricSummary summarise_metric(std::size_t metric, bool counts_failures, std::span<const std::size_t> of_group,
-                               std::span<const TrialRecord> trials, const SystemValues& system,
-                               const Observations& observations) {
-  const auto value_of = [&](std::size_t trial) {
-    const std::optional<double>& value = system[trial][metric];
-    return !value && counts_failures && trials[trial].outcome == trial_outcome::fault ? std::optional(0.0) : value;
-  };
+MetricSummary summarise_metric(std::size_t metric, std::span<const std::size_t> of_group, const Met& met_by_group,
+                               std::span<const TrialRecord> trials, const MetricValues& metric_values) {
   std::vector<double> values;
   std::vector<std::size_t> with_value;
   std::vector<double> values_of_successful;
   for (const std::size_t trial : of_group) {
-    const std::optional<double> value = value_of(trial);
+    const std::optional<double> value = metric_values.of(trial, metric);
     if (!value) continue;
     values.push_back(*value);
     with_value.push_back(trial);
-    if (counts_failures || trials[trial].outcome == trial_outcome::succeeded) values_of_successful.push_back(*value);
+    if (metric_values.is_share(metric) || trials[trial].outcome == trial_outcome::succeeded)
+      values_of_successful.push_back(*value);
   }
-  const core::MeanOfTasks over_tasks = core::mean_of_tasks(observation_means(observations, of_group, value_of),
-                                                           bounds_of_values(counts_failures), observations.resampling);
+  const core::MeanOfTasks over_tasks = metric_values.mean(of_group, metric);
   MetricSummary summary;
   summary.n = over_tasks.n;
-  summary.met = observations.met_by(with_value);
+  summary.met =
+      with_value.size() == of_group.size() ? met_by_group : metric_values.observations(metric).met_by(with_value);
   summary.defined = static_cast<std::uint32_t>(values.size());
   summary.mean = over_tasks.mean;
   summary.sd = core::sample_sd(values);
   summary.median = core::median(values);
   summary.interval = over_tasks.interval;
+  summary.at_most = at_most(metric_values.column(metric), over_tasks);
   summary.paper = core::paper_mean(values_of_successful);
   return summary;
 }
@@ -63,18 +59,12 @@ std::vector<CombinationSummary> summarise(std::span<const MetricColumn> metrics,
     ++summaries[index].trials;
     groups[index].push_back(i);
   }
-  const SystemValues system = system_values(metrics, trials);
-  const Observations observations = observations_of(trials);
-  const Observations plans = observations_of(trials, Unit::plan);
-  const auto is_one_of = [](std::span<const std::string> names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (std::size_t i = 0; i < summaries.size(); ++i)
-    for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
-      const std::string& name = metrics[metric].name;
-      summaries[i].metrics.push_back(summarise_metric(metric, is_one_of(kinds.counts_failures, name), groups[i], trials,
-                                                      system, is_one_of(kinds.of_plans, name) ? plans : observations));
-    }
+  const MetricValues values(kinds, metrics, trials);
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    const Met met = metrics.empty() ? Met{} : values.observations(0).met_by(groups[i]);
+    for (std::size_t metric = 0; metric < metrics.size(); ++metric)
+      summaries[i].metrics.push_back(summarise_metric(metric, groups[i], met, trials, values));
+  }
   return summaries;
 }
 

@@ -8,21 +8,22 @@
 #include <vector>
 
 #include "core/statistics/descriptive.hpp"
-#include "host/findings/findings.hpp"
+#include "host/findings/metric_values.hpp"
 #include "host/results/trial_record.hpp"
 
 namespace dmrp::host {
 
 // One metric's system values over the trials of a combination. NaN where undefined.
 struct MetricSummary {
-  std::uint32_t n = 0;        // observations with a value
-  Met met{};                  // by the trials with a value
-  std::uint32_t defined = 0;  // those trials
-  double mean = 0.0;          // of the observations' means
-  double sd = 0.0;            // over trials
-  double median = 0.0;        // likewise
-  core::Interval interval{};  // 95 %, of the mean
-  core::TrimmedMean paper{};  // over successful trials, or all trials if the metric counts failures
+  std::uint32_t n = 0;               // observations with a value
+  Met met{};                         // by the trials with a value
+  std::uint32_t defined = 0;         // those trials
+  double mean = 0.0;                 // of the observations' means
+  double sd = 0.0;                   // over trials
+  double median = 0.0;               // likewise
+  core::Interval interval{};         // 95 %, of the mean
+  double at_most = core::undefined;  // none had any: the largest share of observations with some, at 95 %
+  core::TrimmedMean paper{};         // over successful trials, or all trials if the metric counts failures
 };
 
 struct CombinationSummary {
@@ -30,13 +31,6 @@ struct CombinationSummary {
   std::uint32_t trials = 0;            // without skipped ones
   std::vector<MetricSummary> metrics;  // in the order of the metrics
   std::vector<SweptValue> swept{};     // of its trials
-};
-
-// Kinds of metrics, by name (SummaryLayout): those that count failures are shares of robots; those of plans depend on the
-// plan alone.
-struct MetricKinds {
-  std::span<const std::string> counts_failures{};
-  std::span<const std::string> of_plans{};
 };
 
 // Of groups of trials with equal `labels_of`, in order of first appearance. `trials` are ordered by id.

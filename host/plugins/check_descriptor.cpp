@@ -83,6 +83,9 @@ void check_values(const PluginInfo& info, const std::string& subject) {
     if (!(spec.subjects & (1u << DMRP_SUBJECT_SYSTEM)))
       throw std::runtime_error(
           fmt::format("{}: declares the value '{}' without the system among its subjects", subject, spec.name));
+    if (!(spec.minimum <= spec.maximum))
+      throw std::runtime_error(
+          fmt::format("{}: the value '{}' has the range {} to {}", subject, spec.name, spec.minimum, spec.maximum));
     if (!names.insert(spec.name).second)
       throw std::runtime_error(fmt::format("{}: declares the value '{}' twice", subject, spec.name));
   }

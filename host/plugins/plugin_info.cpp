@@ -51,8 +51,10 @@ ParameterSpec copy_parameter(const dmrp_param_spec& c) {
 }
 
 MetricValueSpec copy_value(const dmrp_metric_value_spec& c) {
-  return {text_of(c.name),   escaped(c.unit), escaped(c.description), c.direction, c.subjects,
-          c.wall_clock != 0, c.curve != 0};
+  MetricValueSpec out = {text_of(c.name),   escaped(c.unit), escaped(c.description), c.direction, c.subjects,
+                         c.wall_clock != 0, c.curve != 0};
+  if (c.minimum != 0.0 || c.maximum != 0.0) out.minimum = c.minimum, out.maximum = c.maximum;
+  return out;
 }
 
 // JSON has no infinity: a missing bound is null.
@@ -102,7 +104,29 @@ void from_json(const nlohmann::json& json, ParameterValue& value) {
   json.at("texts").get_to(value.texts);
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricValueSpec, name, unit, description, direction, subjects, wall_clock, curve)
+void to_json(nlohmann::json& json, const MetricValueSpec& spec) {
+  json = {{"name", spec.name},
+          {"unit", spec.unit},
+          {"description", spec.description},
+          {"direction", spec.direction},
+          {"subjects", spec.subjects},
+          {"wall_clock", spec.wall_clock},
+          {"curve", spec.curve},
+          {"minimum", bound(spec.minimum)},
+          {"maximum", bound(spec.maximum)}};
+}
+
+void from_json(const nlohmann::json& json, MetricValueSpec& spec) {
+  spec = {json.at("name"),
+          json.at("unit"),
+          json.at("description"),
+          json.at("direction"),
+          json.at("subjects"),
+          json.at("wall_clock"),
+          json.at("curve"),
+          bound(json.at("minimum"), -std::numeric_limits<double>::infinity()),
+          bound(json.at("maximum"), std::numeric_limits<double>::infinity())};
+}
 
 void to_json(nlohmann::json& json, const ParameterSpec& spec) {
   json = {

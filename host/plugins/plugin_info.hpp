@@ -5,6 +5,7 @@
 #include <dmrp/descriptor.h>
 
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct MetricValueSpec {
   std::uint32_t subjects = 0;
   bool wall_clock = false;
   bool curve = false;
+  double minimum = -std::numeric_limits<double>::infinity();  // what it can be
+  double maximum = std::numeric_limits<double>::infinity();
 };
 
 struct PluginInfo {

@@ -36,7 +36,7 @@ inline constexpr std::size_t size_v1_0<dmrp_metric_traits> = 24;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_param_spec> = 104;
 template <>
-inline constexpr std::size_t size_v1_0<dmrp_metric_value_spec> = 40;
+inline constexpr std::size_t size_v1_0<dmrp_metric_value_spec> = 56;
 template <>
 inline constexpr std::size_t size_v1_0<dmrp_global_planner> = 16;
 template <>

@@ -158,9 +158,9 @@ class Contest {
   void compare_with_first(Answer& answer) const {
     for (std::size_t i = 1; i < order_.size(); ++i)
       for (const Criterion& criterion : answer.criteria)
-        answer.ranking[i].against.push_back(paired_difference(
-            differences(order_.front(), order_[i], criterion),
-            criterion.share() ? PairedTest::sign_flip : PairedTest::signed_rank, observations_.resampling));
+        answer.ranking[i].against.push_back(paired_difference(differences(order_.front(), order_[i], criterion),
+                                                              PairedTest::mean, bounds_of_values(criterion.share()),
+                                                              observations_.resampling));
   }
 
   // `all`: the entries as ranked.

@@ -179,7 +179,9 @@ std::string cause_line(const Answer& answer, const RankedCombination& one,
     robots += other.robots;
     for (const FailureCause& cause : other.causes)
       if (!is_exclusion(cause.cause)) add_cause(causes, cause);
-    add_cause(causes, {"after a contact at fault", other.contact.robots, other.contact.trials, 0});
+    FailureCause contact = other.contact;
+    contact.cause = "after a contact at fault";
+    add_cause(causes, contact);
   }
   std::uint32_t unsafe = 0;
   for (const FailureCause& cause : causes) unsafe += cause.robots;

@@ -68,8 +68,8 @@ Place place_between(std::span<const BoundedValue> observations, bool higher_is_b
   std::vector<double> gains;  // of the upper bound over the lower one
   for (const BoundedValue& one : observations) gains.push_back(one.upper - one.lower);
   const core::Resampling resampling(std::vector<std::uint32_t>(gains.size()), core::Scope::these_worlds);
-  const PairedDifference gain =
-      paired_difference(gains, higher_is_better ? PairedTest::sign_flip : PairedTest::signed_rank, resampling);
+  const PairedDifference gain = paired_difference(gains, higher_is_better ? PairedTest::mean : PairedTest::signed_rank,
+                                                  bounds_of_values(higher_is_better), resampling);
   if (!(gain.p < significant) || (gain.over_tasks.mean > 0.0) != higher_is_better) return result;
 
   const auto place_of = [&](auto&& count) {

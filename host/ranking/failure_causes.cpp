@@ -11,7 +11,7 @@ namespace {
 FailureCause& found_or_added(std::vector<FailureCause>& causes, const std::string& cause) {
   const auto found =
       std::find_if(causes.begin(), causes.end(), [&](const FailureCause& one) { return one.cause == cause; });
-  return found != causes.end() ? *found : causes.emplace_back(FailureCause{cause, 0, {}, 0});
+  return found != causes.end() ? *found : causes.emplace_back(FailureCause{cause});
 }
 
 void count(FailureCause& cause, std::uint32_t robots, std::uint64_t trial) {
@@ -30,31 +30,43 @@ std::string cause_of(const MetricEvent& event) {
   return colon == std::string::npos ? event.text : event.text.substr(colon + 2);
 }
 
-// The robots that have this value of a metric.
-std::vector<std::uint64_t> robots_with(const TrialRecord& trial, const std::string& metric, double wanted) {
+// The robots with such a value of a metric, ascending.
+template <class Wanted>
+std::vector<std::uint64_t> robots_with(const TrialRecord& trial, const std::string& metric, Wanted wanted) {
   std::vector<std::uint64_t> robots;
   for (const MetricValue& value : trial.values)
     if (value.subject_kind == DMRP_SUBJECT_ROBOT && !value.coordinate && value.metric == metric && value.subject &&
-        value.value == wanted)
+        value.value && wanted(*value.value))
       robots.push_back(*value.subject);
   std::sort(robots.begin(), robots.end());
   return robots;
+}
+
+bool is_yes(double value) {
+  return value == 1.0;
+}
+
+bool is_no(double value) {
+  return value == 0.0;
 }
 
 void add_trial(CombinationFailures& failures, const SummaryLayout& layout, const TrialRecord& trial) {
   failures.robots += trial.robots;
   if (trial.outcome == trial_outcome::fault)
     return count(found_or_added(failures.causes, "fault"), trial.robots, trial.id);
+  const auto in_contact = robots_with(trial, layout.at_fault, [](double contacts) { return contacts > 0.0; });
   std::set<std::pair<std::string, std::uint32_t>> roots;  // by cause
   for (const MetricEvent& event : trial.events) {
     if (event.metric != layout.arrived) continue;
     FailureCause& cause = found_or_added(failures.causes, cause_of(event));
     count(cause, 1, trial.id);
+    if (!event.robots.empty() && std::binary_search(in_contact.begin(), in_contact.end(), event.robots[0]))
+      ++cause.after_contact;
     if (event.robots.size() > 1 && roots.emplace(cause.cause, event.robots[1]).second) ++cause.roots;
   }
   if (layout.answer.safe.empty()) return;
-  const auto arrived = robots_with(trial, layout.arrived, 1.0);
-  for (const std::uint64_t robot : robots_with(trial, layout.answer.safe, 0.0))
+  const auto arrived = robots_with(trial, layout.arrived, is_yes);
+  for (const std::uint64_t robot : robots_with(trial, layout.answer.safe, is_no))
     if (std::binary_search(arrived.begin(), arrived.end(), robot)) count(failures.contact, 1, trial.id);
 }
 
@@ -67,7 +79,7 @@ std::vector<CombinationFailures> failure_causes(const SummaryLayout& layout, std
     const CombinationLabels labels = combination_of(trial);
     auto found = std::find_if(failures.begin(), failures.end(),
                               [&](const CombinationFailures& one) { return one.combination == labels; });
-    if (found == failures.end()) found = failures.insert(failures.end(), {labels, 0, {}, {"contact", 0, {}, 0}});
+    if (found == failures.end()) found = failures.insert(failures.end(), {labels, 0, {}, {"contact"}});
     add_trial(*found, layout, trial);
   }
   for (CombinationFailures& one : failures) sort_by_frequency(one.causes);
@@ -87,6 +99,7 @@ std::uint32_t excluded_robots(const std::string& arrived, const TrialRecord& tri
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause) {
   FailureCause& sum = found_or_added(causes, cause.cause);
   sum.robots += cause.robots;
+  sum.after_contact += cause.after_contact;
   sum.roots += cause.roots;
 }
 
@@ -96,7 +109,10 @@ std::string cause_words(std::vector<FailureCause> causes) {
   for (const FailureCause& cause : causes) {
     if (cause.robots == 0) continue;
     words += (words.empty() ? "" : ", ") + std::to_string(cause.robots) + " " + cause.cause;
-    if (cause.roots > 0) words += " (roots: " + std::to_string(cause.roots) + ")";
+    std::string more = cause.roots > 0 ? "roots: " + std::to_string(cause.roots) : "";
+    if (cause.after_contact > 0)
+      more += (more.empty() ? "" : "; ") + std::to_string(cause.after_contact) + " after a contact";
+    if (!more.empty()) words += " (" + more + ")";
   }
   return words;
 }
@@ -117,9 +133,9 @@ std::string standstills_line(const SummaryLayout& layout, std::span<const TrialR
   std::size_t arrived = 0;
   std::size_t robots = 0;
   for (const TrialRecord& trial : trials) {
-    const std::size_t after_all = robots_with(trial, layout.after_standstill, 1.0).size();
+    const std::size_t after_all = robots_with(trial, layout.after_standstill, is_yes).size();
     arrived += after_all;
-    robots += after_all + robots_with(trial, layout.after_standstill, 0.0).size();
+    robots += after_all + robots_with(trial, layout.after_standstill, is_no).size();
   }
   if (robots == 0) return "";
   return "Of " + std::to_string(robots) + (robots == 1 ? " robot" : " robots") +

@@ -17,8 +17,9 @@ namespace dmrp::host {
 struct FailureCause {
   std::string cause;  // as the event of the failure says, "fault" for robots of a trial that ended in one
   std::uint32_t robots = 0;
-  std::vector<std::uint64_t> trials;  // ids
-  std::uint32_t roots = 0;            // robots that hold or block these: those that the events name second
+  std::vector<std::uint64_t> trials{};  // ids
+  std::uint32_t after_contact = 0;      // of these robots: touched somebody or something by their own fault
+  std::uint32_t roots = 0;              // robots that hold or block these: those that the events name second
 };
 
 struct CombinationFailures {
@@ -40,7 +41,7 @@ std::uint32_t excluded_robots(const std::string& arrived, const TrialRecord& tri
 // Adds the robots of a cause to a list.
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause);
 
-// "9 held behind another robot (roots: 2), 3 stuck", the most frequent first; "" without robots.
+// "9 held behind another robot (roots: 2), 3 stuck (1 after a contact)", the most frequent first; "" without robots.
 std::string cause_words(std::vector<FailureCause> causes);
 
 // "12 did not arrive: 9 held behind another robot (roots: 2), 3 stuck"; "" if all arrived.

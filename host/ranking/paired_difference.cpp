@@ -5,31 +5,21 @@
 #include <cmath>
 
 #include "core/statistics/holm.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
-#include "host/findings/findings.hpp"
 
 namespace dmrp::host {
 
-PairedDifference paired_difference(std::span<const double> by_task, PairedTest test,
+PairedDifference paired_difference(std::span<const double> by_task, PairedTest test, const core::Bounds& bounds,
                                    const core::Resampling& resampling) {
   constexpr double rounding = 1e-9;
   std::vector<double> defined;
   for (const double one : by_task)
     if (!std::isnan(one)) defined.push_back(one);
   PairedDifference result;
-  result.over_tasks = core::difference_of_tasks(by_task, bounds_of_values(test == PairedTest::sign_flip), resampling);
+  result.over_tasks = core::difference_of_tasks(by_task, bounds, resampling);
   result.equal = std::all_of(defined.begin(), defined.end(), [](double one) { return std::fabs(one) < rounding; });
   if (defined.size() < fewest_observations || result.equal) return result;
-  if (test == PairedTest::sign_flip) {
-    const core::SignFlipTest flips = core::sign_flip_test(defined);
-    result.p = flips.p;
-    result.exact = flips.exact;
-  } else {
-    const core::SignedRankTest ranks = core::signed_rank_test(defined);
-    result.p = ranks.p;
-    result.exact = ranks.exact;
-  }
+  result.p = test == PairedTest::mean ? result.over_tasks.p : core::signed_rank_test(defined).p;
   return result;
 }
 

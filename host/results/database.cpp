@@ -17,7 +17,7 @@
 namespace dmrp::host {
 namespace {
 
-constexpr std::int64_t schema_version = 5;
+constexpr std::int64_t schema_version = 6;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE trial(
@@ -44,7 +44,9 @@ CREATE TABLE metric(
   unit TEXT NOT NULL,
   direction TEXT NOT NULL CHECK (direction IN ('none', 'lower', 'higher')),
   wall_clock INTEGER NOT NULL CHECK (wall_clock IN (0, 1)),
-  description TEXT NOT NULL
+  description TEXT NOT NULL,
+  minimum REAL NOT NULL,
+  maximum REAL NOT NULL
 );
 -- of plugins that are not built in: tables show them although no layout names them
 CREATE TABLE added_metric(name TEXT PRIMARY KEY REFERENCES metric(name)) WITHOUT ROWID;
@@ -351,10 +353,11 @@ ResultsDatabase ResultsDatabase::create(const std::filesystem::path& path, std::
   connection.execute(schema);
   connection.execute(create_value_views(metrics));
   connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
-  SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
+  SqliteStatement insert(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?, ?, ?)");
   for (const MetricColumn& metric : metrics) {
     insert.bind(metric.name).bind(metric.unit).bind(std::string_view(direction_names.at(metric.direction)));
-    insert.bind(std::int64_t{metric.wall_clock}).bind(metric.description).run();
+    insert.bind(std::int64_t{metric.wall_clock}).bind(metric.description);
+    insert.bind(metric.minimum).bind(metric.maximum).run();
   }
   SqliteStatement insert_added(connection, "INSERT INTO added_metric VALUES (?)");
   for (const MetricColumn& metric : metrics)
@@ -417,8 +420,9 @@ std::vector<std::uint64_t> ResultsDatabase::finished_trials(Finished which) cons
 }
 
 std::vector<MetricColumn> ResultsDatabase::metrics() const {
-  SqliteStatement select(connection_,
-                         "SELECT name, unit, direction, wall_clock, description FROM metric ORDER BY rowid");
+  SqliteStatement select(
+      connection_,
+      "SELECT name, unit, direction, wall_clock, description, minimum, maximum FROM metric ORDER BY rowid");
   std::vector<MetricColumn> metrics;
   while (select.step()) {
     MetricColumn& metric = metrics.emplace_back();
@@ -427,6 +431,8 @@ std::vector<MetricColumn> ResultsDatabase::metrics() const {
     metric.direction = index_of(direction_names, select.column_text(2));
     metric.wall_clock = select.column_integer(3) != 0;
     metric.description = select.column_text(4);
+    metric.minimum = select.column_number(5);
+    metric.maximum = select.column_number(6);
   }
   SqliteStatement added(connection_, "SELECT name FROM added_metric");
   while (added.step())

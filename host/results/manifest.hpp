@@ -82,7 +82,7 @@ struct UnrepeatableTrials {
 struct Manifest {
   std::string dmrp_version;
   std::string commit;  // that the program was built from; empty where that is unknown
-  std::string abi;     // "1.0", "1.0 draft 4"
+  std::string abi;     // "1.0", "1.0 draft 5"
   std::vector<std::string> command_line;
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;

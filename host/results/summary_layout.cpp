@@ -75,6 +75,8 @@ SummaryLayout parse_layout(std::string_view text) {
       layout.arrived = value.get<std::string>();
     else if (key == "contacts")
       layout.contacts = value.get<std::string>();
+    else if (key == "at_fault")
+      layout.at_fault = value.get<std::string>();
     else if (key == "after_standstill")
       layout.after_standstill = value.get<std::string>();
     else if (key == "counts_failures")

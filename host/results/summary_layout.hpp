@@ -39,6 +39,7 @@ struct SummaryLayout {
   std::vector<SummaryTableColumn> columns;
   std::string arrived;   // metric that is 1 for each robot that completed its task; empty: not in the closing line
   std::string contacts;  // metric whose system value is the number of contacts; likewise
+  std::string at_fault;  // metric of each robot's contacts by its own fault; empty: causes do not say
   std::string after_standstill;  // metric of each robot at a standstill that ran on: 1 if it arrived; likewise
 
   // Metrics that count failures: a trial that ended in a fault has the value 0, and the paper's rule includes failed

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +28,8 @@ struct MetricColumn {
   bool wall_clock = false;      // differs from run to run
   std::string description;
   bool added = false;  // of a plugin that is not built in: tables show it although no layout names it
+  double minimum = -std::numeric_limits<double>::infinity();  // what it can be
+  double maximum = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr std::array<const char*, 3> subject_kind_names{"system", "robot", "pedestrian"};  // by DMRP_SUBJECT_*

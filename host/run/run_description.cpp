@@ -51,7 +51,7 @@ std::vector<MetricColumn> columns_of(const Experiment& experiment) {
   for (const PluginUse& use : experiment.metrics)
     for (const MetricValueSpec& value : use.info.values)
       columns.push_back({value.name, value.unit, value.direction, value.wall_clock, value.description,
-                         !is_reserved_id(use.info.id) && !value.curve});
+                         !is_reserved_id(use.info.id) && !value.curve, value.minimum, value.maximum});
   return columns;
 }
 

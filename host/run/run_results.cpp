@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 RunResults read_results(ResultsDatabase database, const SummaryLayout& layout, const fs::path& directory) {
   database.finish();
   RunResults results{database.metrics(), database.trials_with_events_of(layout.arrived), {}, {}};
-  results.summaries = summarise(results.metrics, results.trials, {layout.counts_failures, layout.of_plans});
+  results.summaries = summarise(results.metrics, results.trials, kinds_of(layout));
   results.summarised = results.metrics;
   const fs::path effective = directory / "effective.toml";
   add_places(bounds_of(read_file(effective, effective.string())), layout, results.trials, results.summarised,
@@ -105,22 +105,22 @@ std::string answer_block(const Answer& answer, std::span<const CombinationFailur
 std::string caution_about_few(std::span<const CombinationSummary> summaries) {
   std::size_t least = fewest_observations;
   std::string words;
+  std::uint32_t robots = 0;
   for (const CombinationSummary& summary : summaries) {
     MetricSummary most;
     for (const MetricSummary& metric : summary.metrics)
       if (metric.n > most.n) most = metric;
     if (most.n >= least) continue;
     least = most.n;
+    robots = summary.combination.robots;
     const bool has_each_once = most.n == summary.trials || most.n == 0;
     words = !has_each_once        ? met_words(most.met)
             : summary.trials == 1 ? "one trial"
                                   : fmt::format("{} trials", summary.trials);
   }
-  return words.empty() ? ""
-                       : fmt::format(
-                             "caution: {}. For a comparison: [[scenario]] robots = 8, tasks = {{ drawn = 40 }} and "
-                             "[experiment] trials = 40",
-                             words);
+  const std::string tasks =
+      robots > 0 ? fmt::format("[[scenario]] robots = {}, tasks = {{ drawn = 40 }} and ", robots) : "";
+  return words.empty() ? "" : fmt::format("caution: {}. For a comparison: {}[experiment] trials = 40", words, tasks);
 }
 
 }  // namespace

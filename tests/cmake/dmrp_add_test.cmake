@@ -18,6 +18,14 @@ function(dmrp_run_nightly)
   set_property(TEST ${ARGN} APPEND PROPERTY LABELS nightly)
 endfunction()
 
+# dmrp_sanitize_nightly(TEST...): these unit tests drive or search for so long that sanitizers take most of CI's time for
+# them, on lines that other tests run too: release runs them, the preset clang does not, nightly does both.
+function(dmrp_sanitize_nightly)
+  if(DMRP_SANITIZE)
+    set_property(TEST ${ARGN} APPEND PROPERTY LABELS long)
+  endif()
+endfunction()
+
 function(dmrp_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "WITHOUT_SANITIZERS" "" "SOURCES;LIBRARIES")
   if(NOT test_SOURCES OR test_UNPARSED_ARGUMENTS)

@@ -3,10 +3,10 @@
 # A metric that fails, even one that ends its process, loses only its own values.
 source "$(dirname "${BASH_SOURCE[0]}")/faults.sh"
 
-built_in=(success path_length completion_time sto ibtr ldf pfd collisions speed)
+built_in=(success path_length completion_time sto ibtr ldf pfd collisions speed idle_time)
 begin_experiment faults global_planner
 use faults global_planner dmrp.planner.cbs
-faults=(crash exit rounding silent infinite undeclared throw_in_begin flood)
+faults=(crash exit rounding silent infinite beyond undeclared throw_in_begin flood)
 $limited && faults+=(memory)
 # faulty ones before, between and after the others
 use faults metric test.metric.none
@@ -48,7 +48,8 @@ for trial in 0 1; do
   steps=$(query "$scratch/faults" "SELECT CAST(value AS INTEGER) FROM value WHERE metric = 'test_none' AND trial_id = $trial")
   for fault in "silent|bad_output|gave no system value of test_silent" \
     "flood|bad_output|the values and events of a metric in one trial take more than 32 MB" \
-    "infinite|error_status|refused a value of test_infinite" "undeclared|error_status|refused a value of test_other"; do
+    "infinite|error_status|refused a value of test_infinite" \
+    "beyond|error_status|refused a value of test_beyond.*it is [0-9]*, but its descriptor declares 0 to 1" "undeclared|error_status|refused a value of test_other"; do
     IFS='|' read -r name kind detail <<<"$fault"
     expect_fault faults "trial.id = $trial AND plugin = 'test.metric.$name'" \
       "$kind|test.metric.$name|finish|$steps||" "$detail"

@@ -56,6 +56,20 @@ found=$(sqlite3 :memory: "SELECT printf('%+.3f [%+.3f, %+.3f]', json_extract(j, 
   FROM (SELECT CAST(readfile('$scratch/data.json') AS TEXT) AS j)")
 [[ $difference == "$found "* ]] || fail "compare prints '$difference', its page has $found"
 
+# the two lines that a run of few offers are valid, and draw what they say
+cp "$here/crossing.toml" "$scratch/few.toml"
+expect_status 0 "$host" "$scratch/few.toml" --trials 2 --out "$scratch/few"
+line=$(tr '\n' ' ' <"$scratch/stdout" | grep -o 'For a comparison: .*trials = [0-9]*') || fail "no lines to paste: $(cat "$scratch/stdout")"
+[[ $line =~ \[\[scenario\]\]\ (.*)\ and\ +\[experiment\]\ (.*) ]] || fail "two tables should be named: $line"
+for pair in "scenario|${BASH_REMATCH[1]}" "experiment|${BASH_REMATCH[2]}"; do
+  keys=$(sed 's/, \(tasks\)/\n\1/' <<<"${pair#*|}")
+  for key in $(sed 's/ =.*//' <<<"$keys"); do sed -i "/^$key /d" "$scratch/few.toml"; done
+  awk -v table="${pair%%|*}" -v keys="$keys" '{ print } $0 == "[" table "]" || $0 == "[[" table "]]" { print keys }' \
+    "$scratch/few.toml" >"$scratch/pasted.toml" && mv "$scratch/pasted.toml" "$scratch/few.toml"
+done
+expect_status 0 "$host" validate "$scratch/few.toml"
+grep -q "good. 4 combinations of 40 repetitions: 160 trials" "$scratch/stdout" || fail "the pasted lines give: $(cat "$scratch/stdout")"
+
 # more tasks than were declared: the manifest tells
 sed 's/drawn = 5/drawn = 40/' "$scratch/tasks.toml" >"$scratch/many.toml"
 expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 2 --out "$scratch/grown"

@@ -31,7 +31,7 @@ function compared() {
   const run = (name, text) => {
     const experiment = path.join(scratch, `${name}.toml`);
     fs.writeFileSync(experiment, text);
-    run_experiment(experiment, path.join(scratch, name), {env, options: ['--trials', '8']});
+    run_experiment(experiment, path.join(scratch, name), {env, options: ['--trials', '14']});
     return path.join(scratch, name);
   };
   const before = run('before', crossing);

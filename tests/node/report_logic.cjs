@@ -279,10 +279,10 @@ const tests = {
     same(heat_map.default_metric(data, data.metrics), 'arrived');
     for (const summaries of data.summaries) summaries[0].mean = 1;
     same(heat_map.default_metric(data, data.metrics), 'time');
-    const one = (metric, p_holm, mean_difference) => ({metric, p_holm, mean_difference});
-    data.comparisons = [one('a', 1, 0), one('b', 0.4, 1), one('c', 0.01, 2)];
+    const one = (metric, p_holm, mean_difference, low = -1) => ({metric, p_holm, mean_difference, low, high: 3});
+    data.comparisons = [one('a', 1, 0), one('b', 0.4, 1), one('d', 0.01, 2), one('c', 0.01, 2, 1)];
     same(comparisons.default_metric(data), 'c');
-    data.comparisons.pop();
+    data.comparisons.splice(2);
     same(comparisons.default_metric(data), 'b');
     data.comparisons.pop();
     same(comparisons.default_metric(data), 'a');
@@ -422,7 +422,7 @@ const tests = {
   'a difference has the estimate of its test'() {
     const comparison = {median_difference: 1, low: 0, high: 2, mean_difference: 5, mean_low: 4, mean_high: 6};
     same(comparisons.estimate_of({...comparison, test: 'signed_rank'}), {estimate: 1, low: 0, high: 2});
-    same(comparisons.estimate_of({...comparison, test: 'sign_flip'}), {estimate: 5, low: 4, high: 6});
+    same(comparisons.estimate_of({...comparison, test: 'mean'}), {estimate: 5, low: 4, high: 6});
   },
   'faults are grouped by kind, plugin and function'() {
     const fault = (trial, kind, plugin) => ({trial, kind, plugin, function: 'step'});

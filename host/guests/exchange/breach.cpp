@@ -43,6 +43,10 @@ std::string MetricAnswer::breach_of_value(const MetricValue& value) const {
     if (std::string breach = breach_of_robot(*value.subject); !breach.empty()) return breach;
   if (!std::isfinite(value.value.value_or(0.0)) || !std::isfinite(value.coordinate.value_or(0.0)))
     return "it is infinite (NaN is undefined)";
+  constexpr double rounding = 1e-9;
+  const double given = value.value.value_or(spec->minimum);
+  if (given < spec->minimum - rounding || given > spec->maximum + rounding)
+    return fmt::format("it is {}, but its descriptor declares {} to {}", given, spec->minimum, spec->maximum);
   if (!spec->curve && value.coordinate) return "it has a coordinate, but is no curve";
   return "";
 }

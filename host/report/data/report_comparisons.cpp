@@ -26,7 +26,8 @@ bool differ_only_in(Varied varied, CombinationLabels a, CombinationLabels b) {
   return a == b;
 }
 
-PairedComparison compare(const JointFindings& joint, PairedTest test, const core::Resampling& resampling) {
+PairedComparison compare(const JointFindings& joint, PairedTest test, const core::Bounds& bounds,
+                         const core::Resampling& resampling) {
   const std::vector<double> differences = joint.differences(0, 1);
   std::vector<double> defined;
   for (const double one : differences)
@@ -36,7 +37,7 @@ PairedComparison compare(const JointFindings& joint, PairedTest test, const core
   result.pairs = joint.situations;
   result.ties = ranks.zeros;
   result.test = test;
-  result.difference = paired_difference(differences, test, resampling);
+  result.difference = paired_difference(differences, test, bounds, resampling);
   result.shift = core::hodges_lehmann(defined);
   result.effect = ranks.rank_biserial;
   return result;
@@ -86,8 +87,8 @@ std::vector<PairedComparison> paired_comparisons(const ReportFrame& frame, const
           if (!differ_only_in(varied, findings.entries[a], findings.entries[b])) continue;
           const JointFindings joint = joint_findings(findings, frame.observations, std::vector{a, b}, values);
           if (joint.situations == 0) continue;
-          PairedComparison& comparison =
-              comparisons.emplace_back(compare(joint, compared.test, frame.observations.resampling));
+          PairedComparison& comparison = comparisons.emplace_back(
+              compare(joint, compared.test, bounds_of_values(counts), frame.observations.resampling));
           comparison.metric = *metric;
           comparison.varied = varied;
           comparison.a = frame.combination(findings.entries[a]);

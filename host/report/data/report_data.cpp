@@ -37,13 +37,16 @@ struct MetricCurve {
 
 using Values = std::map<std::size_t, double>;  // by trial, without undefined ones
 
-CurvePoint summarise_point(double coordinate, const Values& values, const Observations& observations) {
+CurvePoint summarise_point(const MetricColumn& metric, double coordinate, const Values& values,
+                           const Observations& observations) {
   std::vector<std::size_t> trials;
   for (const auto& [trial, value] : values) trials.push_back(trial);
   const auto value_of = [&](std::size_t trial) { return std::optional(values.at(trial)); };
-  return {coordinate,
-          core::mean_of_tasks(observation_means(observations, trials, value_of), {}, observations.resampling),
-          static_cast<std::uint32_t>(values.size())};
+  CurvePoint point = {
+      coordinate, core::mean_of_tasks(observation_means(observations, trials, value_of), {}, observations.resampling),
+      static_cast<std::uint32_t>(values.size())};
+  point.over_tasks.interval = within(metric, point.over_tasks.interval);
+  return point;
 }
 
 // The system's curves, by metric, then combination. Omits the metric for delays of people and curves without a
@@ -67,7 +70,7 @@ std::vector<MetricCurve> metric_curves(const ReportFrame& frame, const std::stri
   for (const auto& [key, points] : collected) {
     MetricCurve curve{key.first, key.second, {}};
     for (const auto& [coordinate, values] : points)
-      curve.points.push_back(summarise_point(coordinate, values, frame.observations));
+      curve.points.push_back(summarise_point(frame.metrics[key.first], coordinate, values, frame.observations));
     const bool defined =
         std::any_of(curve.points.begin(), curve.points.end(), [](const auto& point) { return point.defined > 0; });
     if (defined) curves.push_back(std::move(curve));
@@ -190,6 +193,7 @@ Json summary_json(std::uint32_t trials, const MetricSummary& summary) {
           {"median", summary.median},
           {"low", summary.interval.low},
           {"high", summary.interval.high},
+          {"at_most", summary.at_most},
           {"paper_mean", summary.paper.mean},
           {"paper_count", summary.paper.count},
           {"paper_trimmed_all_nonzero", summary.paper.trimmed_all_nonzero}};
@@ -336,7 +340,7 @@ ReportLayouts read_report_layouts(const std::filesystem::path& folder) {
 
 std::string report_data_json(const ReportRun& run, const ReportLayouts& layouts, const ReplayIndex& replays) {
   const ReportFrame frame = make_report_frame(run.metrics, run.trials);
-  const MetricKinds kinds = {layouts.summary.counts_failures, layouts.summary.of_plans};
+  const MetricKinds kinds = kinds_of(layouts.summary);
   std::vector<MetricColumn> metrics = run.metrics;
   std::vector<CombinationSummary> summaries = summarise(run.metrics, run.trials, kinds);
   add_places(bounds_of(run.effective_toml), layouts.summary, run.trials, metrics, summaries);

@@ -21,10 +21,10 @@ ComparedMetric parse_comparison(const nlohmann::json& json) {
       value.get_to(compared.metric);
     else if (key == "test" && value == "signed_rank")
       compared.test = PairedTest::signed_rank;
-    else if (key == "test" && value == "sign_flip")
-      compared.test = PairedTest::sign_flip;
+    else if (key == "test" && value == "mean")
+      compared.test = PairedTest::mean;
     else if (key == "test")
-      throw std::runtime_error("'test' must be \"signed_rank\" or \"sign_flip\"");
+      throw std::runtime_error("'test' must be \"signed_rank\" or \"mean\"");
     else if (key == "censored")
       value.get_to(compared.censored);
     else if (key == "both_succeeded")

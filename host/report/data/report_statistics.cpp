@@ -212,8 +212,7 @@ Json comparison_json(const ReportFrame& frame, const PairedComparison& one) {
   json["mean_low"] = over_tasks.interval.low;
   json["mean_high"] = over_tasks.interval.high;
   json["effect"] = one.effect;
-  json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "sign_flip";
-  json["exact"] = one.difference.exact;
+  json["test"] = one.test == PairedTest::signed_rank ? "signed_rank" : "mean";
   json["equal"] = one.difference.equal;
   json["p"] = one.difference.p;
   json["p_holm"] = one.difference.p_holm;
@@ -295,7 +294,11 @@ Json answer_json(const Answer& answer, std::span<const CombinationFailures> fail
 }
 
 Json cause_json(const FailureCause& cause) {
-  return {{"cause", cause.cause}, {"robots", cause.robots}, {"roots", cause.roots}, {"trials", cause.trials}};
+  return {{"cause", cause.cause},
+          {"robots", cause.robots},
+          {"after_contact", cause.after_contact},
+          {"roots", cause.roots},
+          {"trials", cause.trials}};
 }
 
 Json failures_json(const CombinationFailures& failures) {

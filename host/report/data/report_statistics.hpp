@@ -4,7 +4,7 @@
 //   comparisons       [{metric, scenario, robots, varied: global_planner | local_controller | pedestrian_model, a, b,
 //                     given: {the other two labels}, combinations: [of a, of b], pairs, n, ties,
 //                     median_difference, low, high, mean_difference, mean_low, mean_high, effect, test: signed_rank |
-//                     sign_flip, exact, equal, p, p_holm}]; differences are b - a; p: null below five observations, or if
+//                     mean, equal, p, p_holm}]; differences are b - a; p: null below five observations, or if
 //                     nothing differs
 //   answers           [{heading, n, worlds, lines, cells: [labels], criteria: [{name, unit}], ranking:
 //                     [{global_planner, local_controller, trials, means, standing: first | may_be_best | worse,

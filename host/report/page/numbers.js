@@ -39,6 +39,11 @@ export function interval(low, high, decimals, write = fixed) {
   return `[${write(low, decimals)}, ${write(high, decimals)}]`;
 }
 
+// "0 of 20: at most 14 %", where no observation had any of what is counted; else empty.
+export function none_of({n, at_most}) {
+  return is_number(at_most) ? `0 of ${n}: at most ${percent(at_most)}` : '';
+}
+
 export function p_value(p) {
   if (!is_number(p)) return UNDEFINED;
   return p < 0.001 ? '< 0.001' : p.toFixed(3);

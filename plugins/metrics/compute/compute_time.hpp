@@ -16,25 +16,29 @@ class ComputeTime final : public Metric {
         .source("own definition; after MRPB 1.0, Wen et al., ICRA 2021: computation cost of a control cycle")
         .channels(DMRP_CHANNEL_CALLS)
         .value("plan_call_mean", "ms", lower_is_better, Subjects::system,
-               "mean wall time of all calls of plan(), including replans; undefined without a call")
+               "mean wall time of all calls of plan(), including replans; undefined without a call", never_negative)
         .wall_clock()
         .value("plan_call_p99", "ms", lower_is_better, Subjects::system,
-               "99th percentile of the same by nearest rank; undefined without a call")
+               "99th percentile of the same by nearest rank; undefined without a call", never_negative)
         .wall_clock()
         .value("plan_missed", "%", lower_is_better, Subjects::system,
-               "share of those calls that ran out of their time budget (status TIMEOUT); undefined without a call")
+               "share of those calls that ran out of their time budget (status TIMEOUT); undefined without a call",
+               percent_range)
         .wall_clock()
         .value("control_call_mean", "ms", lower_is_better, system_and_robots,
                "mean wall time of the robot's calls of step(); system: over the calls of all robots, or of step_all(); "
-               "undefined without a call")
+               "undefined without a call",
+               never_negative)
         .wall_clock()
         .value("control_call_p99", "ms", lower_is_better, system_and_robots,
                "99th percentile of the same by nearest rank; system: over the calls of all robots; undefined without a "
-               "call")
+               "call",
+               never_negative)
         .wall_clock()
         .value("control_missed", "%", lower_is_better, system_and_robots,
                "share of those calls that took longer than the control period; system: over the calls of all robots; "
-               "undefined without a call")
+               "undefined without a call",
+               percent_range)
         .wall_clock();
   }
 

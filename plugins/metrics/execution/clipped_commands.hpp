@@ -14,7 +14,8 @@ class ClippedCommands final : public CountOfEvents {
         .source("own definition")
         .value("clipped_commands", "1", lower_is_better, system_and_robots,
                "number of commands that the host clipped: beyond the velocity limits or the ability of the drive "
-               "(sideways, tighter than the steering allows); system: sum over robots; undefined if planning failed");
+               "(sideways, tighter than the steering allows); system: sum over robots; undefined if planning failed",
+               never_negative);
   }
 
   void observe(const Sample& sample) override {

@@ -14,7 +14,8 @@ class IdleTime final : public ActiveTimeMetric<TimeCount> {
         .summary("time in which an active robot neither drives nor turns")
         .source("HuNavSim, Perez-Higueras et al., RA-L 2023: time not moving")
         .value("idle_time", "s", lower_is_better, system_and_robots,
-               "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; undefined if planning failed");
+               "active time with measured |v| < 0.01 m/s and |omega| < 0.02 rad/s; undefined if planning failed",
+               never_negative);
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "idle_time", &TimeCount::seconds); }

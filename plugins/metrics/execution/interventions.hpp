@@ -17,10 +17,12 @@ class Interventions final : public CountOfEvents {
         .channels(DMRP_CHANNEL_RECOVERIES)
         .value("interventions", "1", lower_is_better, system_and_robots,
                "number of runs of control ticks at which the monitor reduced the robot's command; system: sum over "
-               "robots; undefined if planning failed")
+               "robots; undefined if planning failed",
+               never_negative)
         .value("intervention_time", "s", lower_is_better, system_and_robots,
                "time under reduced commands, from control tick to control tick; system: sum over robots; undefined if "
-               "planning failed");
+               "planning failed",
+               never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

@@ -16,7 +16,7 @@ class Recoveries final : public CountOfEvents {
         .source("own definition")
         .channels(DMRP_CHANNEL_RECOVERIES)
         .value("recoveries", "1", lower_is_better, system_and_robots,
-               "number of recoveries; system: sum over robots; undefined if planning failed");
+               "number of recoveries; system: sum over robots; undefined if planning failed", never_negative);
   }
 
   void observe(const Sample& sample) override {

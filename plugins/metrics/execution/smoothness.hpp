@@ -33,17 +33,21 @@ class Smoothness final : public ActiveTimeMetric<RobotMotion> {
             "Guzzi et al., Human-friendly robot navigation in dynamic environments, ICRA 2013: path irregularity; "
             "acceleration and jerk as in HuNavSim, Perez-Higueras et al., RA-L 2023")
         .value("heading_change", "rad", lower_is_better, system_and_robots,
-               "sum over the steps of active time of |wrap(theta - previous theta)|; undefined if planning failed")
+               "sum over the steps of active time of |wrap(theta - previous theta)|; undefined if planning failed",
+               never_negative)
         .value("path_irregularity", "rad/m", lower_is_better, system_and_robots,
                "max(0, heading_change - least turning) / length driven while active; least turning: from the start's "
                "heading over the directions of the goals to the last goal's heading if it has one; undefined if the "
-               "robot did not move")
+               "robot did not move",
+               never_negative)
         .value("acceleration", "m/s^2", lower_is_better, system_and_robots,
                "mean over active time of |dv/dt|, v = (v_x, v_y) in the robot's frame, from sample to sample; "
-               "undefined if planning failed")
+               "undefined if planning failed",
+               never_negative)
         .value("jerk", "m/s^3", lower_is_better, system_and_robots,
                "mean over active time of |da/dt|, a = dv/dt of one step, from the middle of one step to the middle of "
-               "the next; undefined without two steps");
+               "the next; undefined without two steps",
+               never_negative);
   }
 
   void observe(const Sample& sample) override {

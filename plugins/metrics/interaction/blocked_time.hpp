@@ -35,15 +35,20 @@ class BlockedTime final : public RobotMetric<BlockedTimes> {
         .source("own definition: sums over the classes of dmrp/robot_event.h")
         .value("blocked_time", "s", lower_is_better, system_and_robots,
                "active time of a robot that may drive and gained less than 0.2 m in its last 20 s: the sum of the next "
-               "three; undefined if planning failed, as all of these, and in traces of hosts before the referee")
+               "three; undefined if planning failed, as all of these, and in traces of hosts before the referee",
+               never_negative)
         .value("blocked_time_person", "s", lower_is_better, system_and_robots,
-               "of this, with a person first on the next metre of its course")
-        .value("blocked_time_robot", "s", lower_is_better, system_and_robots, "of this, with a robot first there")
-        .value("blocked_time_stuck", "s", lower_is_better, system_and_robots, "of this, with nobody there")
+               "of this, with a person first on the next metre of its course", never_negative)
+        .value("blocked_time_robot", "s", lower_is_better, system_and_robots, "of this, with a robot first there",
+               never_negative)
+        .value("blocked_time_stuck", "s", lower_is_better, system_and_robots, "of this, with nobody there",
+               never_negative)
         .value("held_time", "s", lower_is_better, system_and_robots,
-               "active time in which the plan's order lets the robot wait for another (execution = \"ordered\")")
+               "active time in which the plan's order lets the robot wait for another (execution = \"ordered\")",
+               never_negative)
         .value("circling_time", "s", lower_is_better, system_and_robots,
-               "blocked time in which the robot travelled over 1 m or turned over 4 pi in its last 20 s");
+               "blocked time in which the robot travelled over 1 m or turned over 4 pi in its last 20 s",
+               never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

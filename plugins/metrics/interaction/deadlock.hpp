@@ -21,9 +21,10 @@ class Deadlock final : public Metric {
         .value("deadlocks", "1", lower_is_better, system_and_robots,
                "number of cycles of robots, each held or blocked by the next one for the host's referee "
                "(dmrp/robot_event.h), that last at least lasting_s; robot: its cycles; undefined if planning failed, "
-               "and in traces of hosts before the referee")
+               "and in traces of hosts before the referee",
+               never_negative)
         .value("deadlock_time", "s", lower_is_better, system_and_robots,
-               "length of the union of these cycles; robot: of its cycles; undefined as deadlocks");
+               "length of the union of these cycles; robot: of its cycles; undefined as deadlocks", never_negative);
   }
 
   Param<double> lasting_s = param("lasting_s", 5.0)

@@ -14,7 +14,8 @@ class Neighbours final : public ActiveTimeMetric<TimeCount> {
         .source("mean of the N(t) whose variance is LDF in Hu et al., DMRP-Bench, ICRA 2026, over active time")
         .value("neighbours", "1", Direction::none, system_and_robots,
                "mean over active time of the number of other robots, including parked ones, within radius_m; undefined "
-               "if planning failed");
+               "if planning failed",
+               never_negative);
   }
 
   Param<double> radius_m = param("radius_m", 2.0)

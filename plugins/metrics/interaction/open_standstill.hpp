@@ -27,7 +27,8 @@ class OpenStandstill final : public RobotMetric<Standstills> {
             "open_standstills", "1", lower_is_better, system_and_robots,
             "number of times that the referee saw the robot stuck, and not circling, for lasting_s or more: it gained "
             "less than 0.2 m in its last 20 s, no order holds it, and nobody is on the next metre of its course; "
-            "system: sum over robots; undefined if planning failed, and in traces of hosts before the referee");
+            "system: sum over robots; undefined if planning failed, and in traces of hosts before the referee",
+            never_negative);
   }
 
   Param<double> lasting_s = param("lasting_s", 15.0).unit("s").range(0.0, 10000.0).doc("shorter ones do not count");

@@ -16,15 +16,17 @@ class Arrivals final : public Metric {
             "Pathfinding, SoCS 2019")
         .value("isr", "1", higher_is_better, system_and_robots,
                "individual success rate: 1 if the robot was at its last goal at the end, else 0. Unlike in success, a "
-               "robot that circled counts, whatever the experiment excludes")
-        .value("csr", "1", higher_is_better, Subjects::system, "1 if isr is 1 for every robot, else 0")
+               "robot that circled counts, whatever the experiment excludes",
+               share_range)
+        .value("csr", "1", higher_is_better, Subjects::system, "1 if isr is 1 for every robot, else 0", share_range)
         .value("flowtime", "s", lower_is_better, Subjects::system,
-               "sum over robots of the time of final arrival; undefined unless all arrive")
+               "sum over robots of the time of final arrival; undefined unless all arrive", never_negative)
         .value("makespan", "s", lower_is_better, Subjects::system,
-               "the last robot's time of final arrival; undefined unless all arrive")
+               "the last robot's time of final arrival; undefined unless all arrive", never_negative)
         .value("throughput", "1/s", higher_is_better, system_and_robots,
                "goals that the robot reached (every goal of a tour) / mission time; 0 if planning failed; system: sum "
-               "over robots");
+               "over robots",
+               never_negative);
   }
 
   void begin(const MetricTrial&) override { goal_index_.assign(world().robots().size(), 0); }

@@ -13,8 +13,9 @@ class CompletionTime final : public FirstPlanMetric {
         .summary("simulated time until the robots arrived, and until the trial ended")
         .source("Hu et al., DMRP-Bench, ICRA 2026: completion time")
         .value("completion_time", "s", lower_is_better, system_and_robots,
-               "time of the robot's final arrival; system: the last, undefined unless all arrive")
-        .value("mission_time", "s", lower_is_better, Subjects::system, "end of the trial for any reason");
+               "time of the robot's final arrival; system: the last, undefined unless all arrive", never_negative)
+        .value("mission_time", "s", lower_is_better, Subjects::system, "end of the trial for any reason",
+               never_negative);
   }
 
   void finish(const TrialEnd& end, MetricSink& sink) override {

@@ -16,12 +16,14 @@ class PathLength final : public Metric {
         .summary("driven length, planned length, planned turns")
         .source("Hu et al., DMRP-Bench, ICRA 2026: total path length")
         .value("path_length", "m", lower_is_better, system_and_robots,
-               "length driven: sum of |dp| over all samples; system: sum over robots; undefined if planning failed")
+               "length driven: sum of |dp| over all samples; system: sum over robots; undefined if planning failed",
+               never_negative)
         .value("planned_length", "m", lower_is_better, system_and_robots,
-               "length of the first plan; system: sum over robots; undefined if planning failed")
+               "length of the first plan; system: sum over robots; undefined if planning failed", never_negative)
         .value("plan_turns", "1", lower_is_better, system_and_robots,
                "changes of direction between moves of the first plan; system: sum over robots; undefined if planning "
-               "failed");
+               "failed",
+               never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

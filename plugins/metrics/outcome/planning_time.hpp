@@ -13,7 +13,7 @@ class PlanningTime final : public FirstPlanMetric {
         .summary("processor time of the call that made the first plan")
         .source("Hu et al., DMRP-Bench, ICRA 2026: planning time")
         .value("planning_time", "ms", lower_is_better, Subjects::system,
-               "processor time of the first plan, all threads; undefined if planning failed")
+               "processor time of the first plan, all threads; undefined if planning failed", never_negative)
         .wall_clock();
   }
 

@@ -14,9 +14,10 @@ class Speed final : public ActiveTimeMetric<TimeMoments> {
         .summary("each robot's measured speed until it arrives")
         .source("Hu et al., DMRP-Bench, ICRA 2026: mean speed, speed standard deviation")
         .value("mean_speed", "m/s", higher_is_better, system_and_robots,
-               "mean over active time of the robot's measured |v|; undefined if planning failed")
+               "mean over active time of the robot's measured |v|; undefined if planning failed", never_negative)
         .value("speed_sd", "m/s", lower_is_better, system_and_robots,
-               "standard deviation over active time of the robot's measured |v|; undefined if planning failed");
+               "standard deviation over active time of the robot's measured |v|; undefined if planning failed",
+               never_negative);
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override {

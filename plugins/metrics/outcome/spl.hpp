@@ -15,12 +15,14 @@ class Spl final : public Metric {
         .summary("success weighted by the ratio of the shortest to the driven length")
         .source("Anderson et al., On Evaluation of Embodied Navigation Agents, arXiv:1807.06757, 2018: SPL")
         .value("spl", "1", higher_is_better, system_and_robots,
-               "S l / max(p, l): S as success, l = shortest_length, p = path_length; 0 without success")
+               "S l / max(p, l): S as success, l = shortest_length, p = path_length; 0 without success", share_range)
         .value("shortest_length", "m", Direction::none, system_and_robots,
                "l: the shortest way of the robot's disc from its start through its goals among the static shapes, "
-               "within about 1 %; system: sum over robots; undefined if there is no way")
+               "within about 1 %; system: sum over robots; undefined if there is no way",
+               never_negative)
         .value("success_at", "1", higher_is_better, Subjects::system,
-               "share of robots that succeed within 1.5, 2 and 3 times their least time, shortest_length at v_max")
+               "share of robots that succeed within 1.5, 2 and 3 times their least time, shortest_length at v_max",
+               share_range)
         .curve()
         .needs(DMRP_EXT_WALKING_GRID);
   }

@@ -18,18 +18,20 @@ class Success final : public Metric {
             "success rate: Hu et al., DMRP-Bench, ICRA 2026; passive motion safety: Bouraine, Fraichard, Salhi, "
             "Autonomous Robots 32, 2012; success weighted by completion time: Yokoyama, Ha, Batra, IROS 2021")
         .value("success", "1", higher_is_better, system_and_robots,
-               "1 if the robot arrived by the time limit and was not failed by the host, else 0")
+               "1 if the robot arrived by the time limit and was not failed by the host, else 0", share_range)
         .value("trial_success", "1", higher_is_better, Subjects::system,
-               "1 if every robot succeeded, else 0; undefined without robots")
+               "1 if every robot succeeded, else 0; undefined without robots", share_range)
         .value("safe_success", "1", higher_is_better, system_and_robots,
                "1 if the robot succeeded and at every contact was at rest (below 0.05 m/s) or moving away from the "
-               "other when they touched, else 0 (passive motion safety)")
+               "other when they touched, else 0 (passive motion safety)",
+               share_range)
         .value("contact_free_success", "1", higher_is_better, system_and_robots,
-               "1 if the robot succeeded without any contact, else 0")
+               "1 if the robot succeeded without any contact, else 0", share_range)
         .value("safe_sct", "1", higher_is_better, system_and_robots,
                "safe success weighted by completion time: S min(1, l / (v_max t)): S as safe_success, l = "
                "shortest_length (of SPL), t = completion_time; 1 where l is 0 and 0 without safe success; undefined if "
-               "there is no way")
+               "there is no way",
+               share_range)
         .needs(DMRP_EXT_WALKING_GRID);
   }
 

@@ -20,14 +20,15 @@ class Ibtr final : public ActiveTimeMetric<TimeMoments> {
         .value("ibtr", "%", lower_is_better, system_and_robots,
                "time in which two active robots are within distance_m and both slower than speed_fraction of their own "
                "mean speed while active, over mission time; the union over pairs; robot: its pairs; undefined if "
-               "planning failed")
+               "planning failed",
+               percent_range)
         .value("ibtr_pair_sum", "%", lower_is_better, Subjects::system,
-               "the same with the sum over pairs; can exceed 100; undefined if planning failed")
+               "the same with the sum over pairs; can exceed 100; undefined if planning failed", never_negative)
         .value("ibtr_by_distance", "%", lower_is_better, Subjects::system,
-               "ibtr over distances_m; undefined if planning failed")
+               "ibtr over distances_m; undefined if planning failed", percent_range)
         .curve()
         .value("ibtr_by_speed_fraction", "%", lower_is_better, Subjects::system,
-               "ibtr over speed_fractions; undefined if planning failed")
+               "ibtr over speed_fractions; undefined if planning failed", percent_range)
         .curve();
   }
 

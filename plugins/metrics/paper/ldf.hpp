@@ -15,12 +15,14 @@ class Ldf final : public Metric {
         .value(
             "ldf", "1", lower_is_better, system_and_robots,
             "variance (normalised by n) of the number of robots within distance_m, including parked ones, counted "
-            "every period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed")
+            "every period_s from 0 to the end of the trial; system: maximum over robots; undefined if planning failed",
+            never_negative)
         .value("ldf_active", "1", lower_is_better, system_and_robots,
                "the same for active robots only, counted while the robot itself is active; system: maximum over "
-               "robots; undefined if planning failed")
+               "robots; undefined if planning failed",
+               never_negative)
         .value("ldf_by_distance", "1", lower_is_better, Subjects::system,
-               "ldf over distances_m; undefined if planning failed")
+               "ldf over distances_m; undefined if planning failed", never_negative)
         .curve();
   }
 

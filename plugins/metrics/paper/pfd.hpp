@@ -45,13 +45,16 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
         .source("Hu et al., DMRP-Bench, ICRA 2026: PFD")
         .value("pfd", "m", lower_is_better, system_and_robots,
                "mean over the control steps of active time of the distance from the robot to the closest point of its "
-               "current path; undefined if planning failed")
+               "current path; undefined if planning failed",
+               never_negative)
         .value("pfd_max", "m", lower_is_better, system_and_robots,
-               "maximum of the same distances; system: maximum over robots; undefined if planning failed")
+               "maximum of the same distances; system: maximum over robots; undefined if planning failed",
+               never_negative)
         .value("pfd_sd", "m", lower_is_better, system_and_robots,
-               "standard deviation (normalised by n) of the same distances; undefined if planning failed")
+               "standard deviation (normalised by n) of the same distances; undefined if planning failed",
+               never_negative)
         .value("pfd_initial", "m", lower_is_better, system_and_robots,
-               "pfd relative to the first plan; undefined if planning failed");
+               "pfd relative to the first plan; undefined if planning failed", never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

@@ -17,12 +17,13 @@ class Sto final : public FirstPlanMetric {
         .source("Hu et al., DMRP-Bench, ICRA 2026: STO")
         .value("sto", "1", lower_is_better, system_and_robots,
                "share of the robot's waypoints in the first plan (one a step, waits kept, until its goal) within "
-               "distance_m of another robot's waypoint within window steps; undefined if planning failed")
+               "distance_m of another robot's waypoint within window steps; undefined if planning failed",
+               share_range)
         .value("sto_by_distance", "1", lower_is_better, Subjects::system,
-               "the system's sto over distances_m; undefined if planning failed")
+               "the system's sto over distances_m; undefined if planning failed", share_range)
         .curve()
         .value("sto_cell_size", "m", Direction::none, Subjects::system,
-               "the size of the planning grid's cells; undefined if planning failed");
+               "the size of the planning grid's cells; undefined if planning failed", never_negative);
   }
 
   Param<double> distance_m =

@@ -27,7 +27,8 @@ class BrakingResponse final : public Metric {
                "ability from the first moment of danger, plus reaction_s, until it stood, and did not drive on: the "
                "other is in sight and both would touch at constant velocities within the robot's stopping time plus "
                "reaction_s; or it is not, and somebody could come out of a place that the robot does not see at "
-               "hidden_speed and touch it within that time");
+               "hidden_speed and touch it within that time",
+               share_range);
   }
 
   Param<double> reaction_s = param("reaction_s", 0.2)

@@ -49,13 +49,16 @@ class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
                "mean over active time with people present of the same distance; undefined without people")
         .value("danger_time", "%", lower_is_better, system_and_robots,
                "share of active time in which any of the three distances is below safe_distance_m; undefined if "
-               "planning failed")
+               "planning failed",
+               percent_range)
         .value("danger_time_robot", "%", lower_is_better, system_and_robots,
                "share of active time in which the nearest robot is closer than safe_distance_m; undefined without "
-               "another robot")
+               "another robot",
+               percent_range)
         .value("danger_time_person", "%", lower_is_better, system_and_robots,
                "share of active time with people present in which the nearest is closer than safe_distance_m; "
-               "undefined without people");
+               "undefined without people",
+               percent_range);
   }
 
   Param<double> safe_distance_m = param("safe_distance_m", 0.3)

@@ -18,20 +18,23 @@ class Collisions final : public Metric {
         .source("rising-edge events attributed as in HuNavSim; fault by passive motion safety: Bouraine et al. 2012")
         .value("collisions", "1", lower_is_better, system_and_robots,
                "contact events of the robot, regardless of fault; system: all events, one between two robots once; "
-               "undefined if planning failed, like all that follow")
+               "undefined if planning failed, like all that follow",
+               never_negative)
         .value("collisions_at_fault", "1", lower_is_better, system_and_robots,
                "contact events at the robot's fault: it was neither at rest nor moving away when they touched; system: "
-               "events at the fault of at least one robot")
+               "events at the fault of at least one robot",
+               never_negative)
         .value("collisions_static", "1", lower_is_better, system_and_robots,
-               "contact events with walls, furniture or the world's border; system: all")
+               "contact events with walls, furniture or the world's border; system: all", never_negative)
         .value("collisions_robot", "1", lower_is_better, system_and_robots,
-               "contact events between robots; counted for both, once for the system")
+               "contact events between robots; counted for both, once for the system", never_negative)
         .value("collisions_person", "1", lower_is_better, system_and_robots,
-               "contact events with people, regardless of fault; system: all")
+               "contact events with people, regardless of fault; system: all", never_negative)
         .value(
             "impact_speed", "m/s", lower_is_better, system_and_robots,
             "maximum over contact events, regardless of fault, of the speed at which the two surfaces closed along the "
-            "normal when they touched; undefined without a contact, and in traces that do not have it; system: maximum")
+            "normal when they touched; undefined without a contact, and in traces that do not have it; system: maximum",
+            never_negative)
         .channels(DMRP_CHANNEL_PEOPLE);
   }
 

@@ -24,10 +24,12 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
         .value(
             "ttc_min", "s", higher_is_better, system_and_robots,
             "minimum over active time and over robots and people of the smallest tau > 0 with |dp + dv tau| = r + r'; "
-            "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course")
+            "0 in contact; system: minimum over robots; undefined where the robot is never on a collision course",
+            never_negative)
         .value("ttc_low_time", "%", lower_is_better, system_and_robots,
                "share of active time in which a time to collision is below threshold_s; undefined without another "
-               "robot or person");
+               "robot or person",
+               percent_range);
   }
 
   Param<double> threshold_s =

@@ -20,13 +20,16 @@ class RootConflicts final : public FirstPlanMetric {
         .value("root_conflicts", "1", Direction::none, Subjects::system,
                "pairs of robots on one cell at one step, or that exchange cells, if each takes its own shortest path "
                "by straight moves, turning as late as it can; undefined if planning failed, for tours, and for plans "
-               "that are not from cell to cell")
+               "that are not from cell to cell",
+               never_negative)
         .value("root_conflicts_waited", "1", Direction::none, Subjects::system,
-               "of these pairs: the first plan leads both over the place of their first conflict, one after the other")
+               "of these pairs: the first plan leads both over the place of their first conflict, one after the other",
+               never_negative)
         .value("root_conflicts_detoured", "1", Direction::none, Subjects::system,
-               "of these pairs: the first plan leads at least one of them past that place, however long its way")
+               "of these pairs: the first plan leads at least one of them past that place, however long its way",
+               never_negative)
         .value("root_conflicts_left", "1", lower_is_better, Subjects::system,
-               "of these pairs: the two conflict in the first plan, too");
+               "of these pairs: the two conflict in the first plan, too", never_negative);
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override {

@@ -34,7 +34,8 @@ class ScheduleError final : public RobotMetric<Schedule> {
                "one waypoint, due when the plan reaches it; a new plan drops those left of the old one; undefined for "
                "a robot that passes none")
         .value("schedule_deviation_s", "s", lower_is_better, system_and_robots,
-               "mean over the same waypoints of the absolute difference; undefined for a robot that passes none");
+               "mean over the same waypoints of the absolute difference; undefined for a robot that passes none",
+               never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

@@ -15,7 +15,8 @@ class StoPhysical final : public FirstPlanMetric {
         .source("Hu et al., DMRP-Bench, ICRA 2026: STO, measured in time instead of waypoints")
         .value("sto_physical", "1", lower_is_better, system_and_robots,
                "of the robot's planned positions every 0.25 s until it rests at its goal, the share within distance_m "
-               "of another robot's at most window_s earlier or later; undefined if planning failed");
+               "of another robot's at most window_s earlier or later; undefined if planning failed",
+               share_range);
   }
 
   Param<double> distance_m =

@@ -27,10 +27,12 @@ class GroupIntrusion final : public ActiveTimeMetric<GroupIntrusions> {
         .channels(DMRP_CHANNEL_PEOPLE)
         .value("group_intrusion_time", "%", lower_is_better, system_and_robots,
                "share of active time with groups present in which the robot's disc intersects the convex hull of the "
-               "centres of a group (of two: a segment); undefined without groups")
+               "centres of a group (of two: a segment); undefined without groups",
+               percent_range)
         .value("group_intrusions", "1", lower_is_better, system_and_robots,
                "number of times that the robot's disc began to intersect a group's hull; system: sum over robots; "
-               "undefined without groups");
+               "undefined without groups",
+               never_negative);
   }
 
   void observe(const Sample& sample) override {

@@ -27,9 +27,9 @@ class PedestrianProgress final : public Metric {
                "current one with what is done of it; undefined without people")
         .curve()
         .value("pedestrian_speed", "m/s", higher_is_better, Subjects::system,
-               "mean of |v| over time and present people; undefined without people")
+               "mean of |v| over time and present people; undefined without people", never_negative)
         .value("pedestrian_desired_speed", "m/s", Direction::none, Subjects::system,
-               "mean of the desired speed over time and present people; undefined without people");
+               "mean of the desired speed over time and present people; undefined without people", never_negative);
   }
 
   void begin(const MetricTrial&) override {

@@ -15,7 +15,8 @@ class PeopleNearby final : public ActiveTimeMetric<TimeCount> {
         .channels(DMRP_CHANNEL_PEOPLE)
         .value(
             "people_nearby", "1", Direction::none, system_and_robots,
-            "mean over active time of the number of people within radius_m of the robot; undefined if planning failed");
+            "mean over active time of the number of people within radius_m of the robot; undefined if planning failed",
+            never_negative);
   }
 
   Param<double> radius_m =

@@ -22,11 +22,12 @@ class Proxemics final : public ActiveTimeMetric<ProxemicShares> {
         .channels(DMRP_CHANNEL_PEOPLE)
         .value("proxemics_intimate", "%", lower_is_better, system_and_robots,
                "share of active time with people present in which the surface distance d to the nearest one is <= 0.45 "
-               "m; undefined without people")
+               "m; undefined without people",
+               percent_range)
         .value("proxemics_personal", "%", lower_is_better, system_and_robots,
-               "the same with 0.45 m < d <= 1.2 m; undefined without people")
+               "the same with 0.45 m < d <= 1.2 m; undefined without people", percent_range)
         .value("proxemics_social", "%", Direction::none, system_and_robots,
-               "the same with 1.2 m < d <= 3.6 m; undefined without people");
+               "the same with 1.2 m < d <= 3.6 m; undefined without people", percent_range);
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override {

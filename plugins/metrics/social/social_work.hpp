@@ -33,12 +33,15 @@ class SocialWork final : public ActiveTimeMetric<WorkOfRobot> {
                "social force on them|; with e toward the other, D = 2 (v - v') + e, B = 0.35 |D|, theta from D to e: "
                "social force 2.1 exp(-d / B) (exp(-(3 B theta)^2) against D + exp(-(2 B theta)^2) perpendicular to "
                "it), per mass, d between centres; static force 10 exp(-d / 0.2 m), d between surfaces; system: sum "
-               "over robots; undefined without people")
+               "over robots; undefined without people",
+               never_negative)
         .value("social_work_robot", "m/s", lower_is_better, system_and_robots,
-               "the first two of these terms: forces on the robot; system: sum over robots; undefined without people")
+               "the first two of these terms: forces on the robot; system: sum over robots; undefined without people",
+               never_negative)
         .value("social_work_people", "m/s", lower_is_better, system_and_robots,
                "the last of these terms: forces of the robot on people; system: sum over robots; undefined without "
-               "people");
+               "people",
+               never_negative);
   }
 
   void begin(const MetricTrial& trial) override {

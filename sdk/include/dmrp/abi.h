@@ -56,7 +56,7 @@
 
 // Until v1 is frozen the contract may change, so host and plugin must have the same draft number.
 // It becomes zero with the freeze.
-#define DMRP_ABI_DRAFT 4
+#define DMRP_ABI_DRAFT 5
 
 // The lowest minor version of the host that a plugin asks for: it sees no later field, and entry.min_host_minor is this.
 #ifndef DMRP_TARGET_MINOR

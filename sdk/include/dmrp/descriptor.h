@@ -63,6 +63,10 @@ typedef struct dmrp_metric_value_spec {
   uint32_t subjects;        // one bit (1u << DMRP_SUBJECT_*) for each kind of subject that has this value
   uint32_t wall_clock;      // 1 if it depends on measured run times, and so is not repeatable to the bit
   uint32_t curve;           // 1 if it has several points, each with a coordinate
+  // What it can be, both ends included; INFINITY where there is no end. A host refuses what lies beyond, and draws no
+  // interval beyond. Both 0: not said.
+  double minimum;
+  double maximum;
 } dmrp_metric_value_spec;
 
 // What a planner says about itself.
@@ -114,7 +118,7 @@ typedef struct dmrp_descriptor {
   const void* traits;
 } dmrp_descriptor;
 
-DMRP_ASSERT_SIZE(dmrp_metric_value_spec, 40);
+DMRP_ASSERT_SIZE(dmrp_metric_value_spec, 56);
 DMRP_ASSERT_SIZE(dmrp_planner_traits, 8);
 DMRP_ASSERT_SIZE(dmrp_controller_traits, 8);
 DMRP_ASSERT_SIZE(dmrp_metric_traits, 24);

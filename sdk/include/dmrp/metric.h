@@ -66,7 +66,7 @@ struct dmrp_metric_sink {
   void* context;  // the host's own
 
   // Returns DMRP_OK; DMRP_OUT_OF_MEMORY; or DMRP_ERROR for an undeclared name or subject, a robot that does not exist,
-  // a coordinate of a value that is not a curve, an infinite number, or a value given twice.
+  // a coordinate of no curve, an infinite number, one beyond its declared range, or a value given twice.
   // [step]
   int32_t (*value)(dmrp_metric_sink* sink, const dmrp_metric_result* result);
 

@@ -132,6 +132,7 @@ class Descriptor:
                 raise PluginMistake(f"{self.place}: class {kind.__name__} has values that are not made by value()")
             spec.name, spec.unit, spec.description = self._text(value.name), self._text(value.unit), self._text(value.help)
             spec.direction, spec.subjects = value.direction, value.subjects
+            spec.minimum, spec.maximum = value.low, value.high
         return self._keep(
             _abi.new(
                 "dmrp_metric_traits", channels=_C["DMRP_CHANNEL_PEOPLE"] if kind.people else 0,

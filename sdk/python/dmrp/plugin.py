@@ -98,8 +98,10 @@ def texts(default: Sequence[str] = (), help: str = "") -> Any:
 class Value:
     """A value that a metric declares."""
 
-    def __init__(self, name: str, unit: str, better: str, help: str, subjects: Sequence[str]) -> None:
-        self.name, self.unit, self.help = name, unit, help
+    def __init__(
+        self, name: str, unit: str, better: str, help: str, subjects: Sequence[str], low: float, high: float
+    ) -> None:
+        self.name, self.unit, self.help, self.low, self.high = name, unit, help, low, high
         if better not in ("none", "lower", "higher"):
             raise ValueError(f"value(): better is 'none', 'lower' or 'higher', not {better!r}")
         self.direction = _abi.constants[f"DMRP_DIRECTION_{better.upper()}"]
@@ -112,9 +114,10 @@ class Value:
 
 
 def value(name: str, unit: str = "1", better: str = "none", help: str = "",
-          subjects: Sequence[str] = ("system",)) -> Value:  # fmt: skip
-    """A value of a metric, in the column `name` of the results; the system is always among its subjects."""
-    return Value(name, unit, better, help, subjects)
+          subjects: Sequence[str] = ("system",), low: float = -math.inf, high: float = math.inf) -> Value:  # fmt: skip
+    """A value of a metric, in the column `name` of the results; the system is always among its subjects. It lies
+    between `low` and `high`: a value beyond is a fault, and no interval goes beyond."""
+    return Value(name, unit, better, help, subjects, low, high)
 
 
 class Plugin:

@@ -10,7 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$compiler" -std=c99 -shared -fPIC "$here/draft_1.c" -o "$scratch/libold.so" || exit 1
 said=$("$host" plugins "$scratch/libold.so" 2>&1)
 status=$?
-expected='built for draft 1 of the v1 contract, this host has draft 4: build it again'
+expected='built for draft 1 of the v1 contract, this host has draft 5: build it again'
 if ((status != 2)) || [[ $said != *libold.so*"$expected" || $said == *$'\n'* ]]; then
   echo "FAILED: status $status, should be 2 and one line that ends with '$expected':"
   echo "$said"

@@ -7,7 +7,6 @@
 #include "core/statistics/best_set.hpp"
 #include "core/statistics/descriptive.hpp"
 #include "core/statistics/holm.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "tests/bench/calibration/rows.hpp"
 #include "tests/bench/calibration/truths.hpp"
@@ -79,8 +78,10 @@ Excluded excluded_by_first(const Benchmark& benchmark) {
       const std::vector<double> differences = gains(criterion, first, entry);
       const bool equal =
           std::all_of(differences.begin(), differences.end(), [](double x) { return std::abs(x) < 1e-9; });
-      const double p = criterion.score == PairedScore::ranks ? core::signed_rank_test(differences).p
-                                                             : core::sign_flip_test(differences).p;
+      const core::Resampling one_world(std::vector<std::uint32_t>(differences.size()), core::Scope::these_worlds, 0);
+      const double p = criterion.score == PairedScore::ranks
+                           ? core::signed_rank_test(differences).p
+                           : core::difference_of_tasks(differences, core::share_bounds, one_world).p;
       p_values.push_back(equal ? core::undefined : p);
       means.push_back(core::mean(differences));
     }

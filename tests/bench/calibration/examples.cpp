@@ -6,8 +6,8 @@
 
 #include "core/statistics/betting.hpp"
 #include "core/statistics/descriptive.hpp"
+#include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/rank_correlation.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 
 namespace dmrp::bench {
@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, double>> examples() {
   const std::vector<std::vector<double>> of_y{y};
   const core::RankCorrelation correlation = core::task_rank_correlation(of_x, of_y, resampling);
   return {{"signed_rank_p", core::signed_rank_test(differences).p},
-          {"sign_flip_p", core::sign_flip_test(differences).p},
+          {"padded_mean_p", core::difference_of_tasks(differences, core::Interval{0.0, 4.0}, resampling).p},
           {"hodges_lehmann", shift.estimate},
           {"spearman_rho", correlation.rho},
           {"spearman_p", correlation.p},

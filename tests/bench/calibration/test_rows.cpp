@@ -8,7 +8,6 @@
 #include "core/statistics/level_effects.hpp"
 #include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/rank_correlation.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "tests/bench/calibration/rows.hpp"
 #include "tests/bench/calibration/truths.hpp"
@@ -37,8 +36,13 @@ void add_paired_tests(std::vector<Row>& rows, std::size_t n) {
   rows.push_back(level("signed rank", "equal entries' times", n, [n](Stream& random) {
     return Outcome{core::signed_rank_test(differences_of_first_two(drawn_times(random, 2, n))).p < core::significance};
   }));
-  rows.push_back(level("sign flip", "equal entries' shares", n, [n](Stream& random) {
-    return Outcome{core::sign_flip_test(differences_of_first_two(drawn_shares(random, 2, n))).p < core::significance};
+  rows.push_back(level("mean, shares", "equal entries' shares", n, [n](Stream& random) {
+    const std::vector<double> differences = differences_of_first_two(drawn_shares(random, 2, n));
+    return Outcome{core::difference_of_tasks(differences, core::share_bounds, one_world(n, 0)).p < core::significance};
+  }));
+  rows.push_back(level("mean, times", "equal entries' times", n, [n](Stream& random) {
+    const std::vector<double> differences = differences_of_first_two(drawn_times(random, 2, n));
+    return Outcome{core::difference_of_tasks(differences, {}, one_world(n, 2000)).p < core::significance};
   }));
   rows.push_back(level("mean's interval without 0", "+.05 (90 %), -.45 (10 %)", n, [n](Stream& random) {
     std::vector<double> differences(n);

@@ -13,7 +13,6 @@
 #include "core/statistics/holm.hpp"
 #include "core/statistics/mean_of_tasks.hpp"
 #include "core/statistics/sample_size.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "host/ranking/measures.hpp"
 #include "host/ranking/paired_difference.hpp"
@@ -103,7 +102,9 @@ PairTest test_pair(const Contest& contest, std::size_t a, std::size_t b, const C
   test.is_large = std::abs(core::mean(differences)) > least;
   if (std::all_of(differences.begin(), differences.end(), [](double one) { return std::abs(one) < rounding; }))
     return test;
-  test.p = criterion.share() ? core::sign_flip_test(differences).p : core::signed_rank_test(differences).p;
+  test.p = criterion.share()
+               ? core::difference_of_tasks(differences, core::share_bounds, one_world(differences.size())).p
+               : core::signed_rank_test(differences).p;
   return test;
 }
 
@@ -290,7 +291,7 @@ std::optional<EntryContrast> contrast(const Discrimination& result, const std::s
   for (std::size_t task = 0; task < a->shares.size(); ++task) differences.push_back(b->shares[task] - a->shares[task]);
   const core::MeanOfTasks over_tasks =
       core::difference_of_tasks(differences, core::share_bounds, one_world(differences.size()));
-  return EntryContrast{over_tasks.mean, over_tasks.interval, core::sign_flip_test(differences).p};
+  return EntryContrast{over_tasks.mean, over_tasks.interval, over_tasks.p};
 }
 
 std::vector<std::string> misses(const Discrimination& result, bool declared_time, const DiscriminationBars& bars) {

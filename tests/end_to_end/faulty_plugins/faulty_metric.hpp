@@ -18,6 +18,7 @@ enum class MetricFault {
   rounding,
   silent,
   infinite,
+  beyond,
   undeclared,
   throw_in_begin,
   flood,
@@ -25,8 +26,8 @@ enum class MetricFault {
 };
 
 constexpr const char* name_of(MetricFault fault) {
-  constexpr const char* names[] = {"none",     "crash",      "exit",           "memory", "rounding", "silent",
-                                   "infinite", "undeclared", "throw_in_begin", "flood",  "recovers"};
+  constexpr const char* names[] = {"none",     "crash",  "exit",       "memory",         "rounding", "silent",
+                                   "infinite", "beyond", "undeclared", "throw_in_begin", "flood",    "recovers"};
   return names[static_cast<int>(fault)];
 }
 
@@ -36,7 +37,8 @@ class FaultyMetric final : public dmrp::Metric {
   static dmrp::Descriptor describe() {
     return dmrp::Descriptor("test.metric." + name(), "Faulty metric, " + name(), "1.0.0")
         .license("MIT")
-        .value("test_" + name(), "1", dmrp::Direction::none, dmrp::Subjects::system, "number of samples");
+        .value("test_" + name(), "1", dmrp::Direction::none, dmrp::Subjects::system, "number of samples",
+               fault == MetricFault::beyond ? dmrp::share_range : dmrp::ValueRange{});
   }
 
   void begin(const dmrp::MetricTrial&) override {

@@ -10,6 +10,6 @@ using namespace dmrp::test;
 DMRP_PLUGINS(FaultyController, FaultyPlanner, FaultyPedestrians, FaultyMetric<MetricFault::none>,
              FaultyMetric<MetricFault::crash>, FaultyMetric<MetricFault::exit>, FaultyMetric<MetricFault::memory>,
              FaultyMetric<MetricFault::rounding>, FaultyMetric<MetricFault::silent>,
-             FaultyMetric<MetricFault::infinite>, FaultyMetric<MetricFault::undeclared>,
-             FaultyMetric<MetricFault::throw_in_begin>, FaultyMetric<MetricFault::flood>,
-             FaultyMetric<MetricFault::recovers>)
+             FaultyMetric<MetricFault::infinite>, FaultyMetric<MetricFault::beyond>,
+             FaultyMetric<MetricFault::undeclared>, FaultyMetric<MetricFault::throw_in_begin>,
+             FaultyMetric<MetricFault::flood>, FaultyMetric<MetricFault::recovers>)

@@ -25,8 +25,8 @@ const dmrp_param_spec does = {"does", DMRP_PARAM_STRING, 0,   0,   0.0,     "", 
                               "",     "what it does",    0.0, 0.0, nullptr, 0,  0};
 const char* const of_controllers[] = {DMRP_EXT_ANNOTATE, DMRP_EXT_LIDAR};
 const char* const of_metrics[] = {DMRP_EXT_WALKING_GRID};
-const dmrp_metric_value_spec odd_value = {"odd", "1", "free cells", DMRP_DIRECTION_NONE, 1u << DMRP_SUBJECT_SYSTEM,
-                                          0,     0};
+const dmrp_metric_value_spec odd_value = {"odd", "1", "free cells", DMRP_DIRECTION_NONE, 1u << DMRP_SUBJECT_SYSTEM, 0,
+                                          0,     0.0, 0.0};
 dmrp_planner_traits planner_traits = {sizeof(planner_traits), DMRP_CONNECTIVITY_4};
 dmrp_metric_traits metric_traits = {sizeof(metric_traits), 0, &odd_value, 1, sizeof(odd_value)};
 

@@ -440,6 +440,7 @@ class CheckingSink {
     const dmrp_metric_value_spec* spec = specification(name);
     if (!spec || (spec->subjects & 1u << kind) == 0 || std::isinf(value)) return false;
     if (kind == DMRP_SUBJECT_ROBOT && subject >= robot_count_) return false;
+    if (value < spec->minimum || value > spec->maximum) return false;
     if (!std::isnan(coordinate)) {
       into_.values[{name, kind, kind == DMRP_SUBJECT_SYSTEM ? 0 : subject}] = value;
       return spec->curve && !std::isinf(coordinate) && into_.curves[name].emplace(coordinate, value).second;

@@ -39,9 +39,13 @@ export function open(data, cell, note) {
     'if the run kept its trace.';
 }
 
-// "9 (roots: 2)"
+// "9 (roots: 2; 3 after a contact)"
 export function count_words(cell) {
-  return cell.roots > 0 ? `${cell.robots} (roots: ${cell.roots})` : String(cell.robots);
+  const more = [
+    cell.roots > 0 && `roots: ${cell.roots}`,
+    cell.after_contact > 0 && `${cell.after_contact} after a contact`,
+  ].filter(Boolean);
+  return more.length > 0 ? `${cell.robots} (${more.join('; ')})` : String(cell.robots);
 }
 
 function count_element(data, cell, note) {

@@ -14,14 +14,20 @@ const TESTS = {
     estimate: 'median difference',
     name: 'Wilcoxon\u2019s signed-rank test, difference by Hodges and Lehmann',
   },
-  sign_flip: {estimate: 'mean difference', name: 'sign-flip permutation test'},
+  mean: {estimate: 'mean difference', name: 'Student\u2019s test of the mean, with one loss and one gain of all added'},
 };
 
 // The estimate that corresponds to the test.
 export function estimate_of(comparison) {
-  return comparison.test === 'sign_flip'
+  return comparison.test === 'mean'
     ? {estimate: comparison.mean_difference, low: comparison.mean_low, high: comparison.mean_high}
     : {estimate: comparison.median_difference, low: comparison.low, high: comparison.high};
+}
+
+// The interval excludes 0, and does so after the correction for all comparisons. Interval and p are one procedure.
+export function is_sure(comparison) {
+  const {low, high} = estimate_of(comparison);
+  return numbers.is_number(comparison.p_holm) && comparison.p_holm < SIGNIFICANT && (low > 0 || high < 0);
 }
 
 // The comparisons of one metric and one varied field, in `variant` or in all variants.
@@ -44,7 +50,7 @@ function given_words(data, comparison) {
 
 function row_element(data, comparison, x, decimals) {
   const estimate = estimate_of(comparison);
-  const sure = numbers.is_number(comparison.p_holm) && comparison.p_holm < SIGNIFICANT;
+  const sure = is_sure(comparison);
   const given = given_words(data, comparison);
   const number = (label, ...content) => element('td', {class: 'number', 'data-label': label}, content);
   return element(
@@ -113,8 +119,9 @@ function note_words(data, rows, chosen) {
     `${labels.metric_with_unit(data, chosen.metric)}, ${labels.direction_words(metric.direction)}; ` +
     `${
       test ? `${test.name}, two-sided` : rows[0].test
-    }. Bars: 95 % intervals. Filled: p (Holm) below ${SIGNIFICANT}, corrected for all ` +
-    'comparisons of this metric and factor in the scenario. Effect: matched-pairs rank-biserial correlation, ' +
+    }. Bars: 95 % intervals. Filled: the interval excludes 0, and p (Holm), corrected for all ` +
+    `comparisons of this metric and factor in the scenario, is below ${SIGNIFICANT}. ` +
+    'Effect: matched-pairs rank-biserial correlation, ' +
     `\u22121 to 1. Tasks: those ${successes ? 'in which both trials succeeded' : 'with values in both trials'}, ` +
     'each the mean over its crowds.' +
     (censored ? ' An incomplete trial counts with the time limit.' : '') +
@@ -126,7 +133,7 @@ function note_words(data, rows, chosen) {
 export function default_metric(data) {
   const first = (holds) => (data.comparisons.find(holds) || {}).metric;
   return (
-    first((one) => one.p_holm !== null && one.p_holm < SIGNIFICANT) ||
+    first(is_sure) ||
     first((one) => one.mean_difference) ||
     data.comparisons[0].metric
   );

@@ -45,7 +45,7 @@ function row(metric, summary, trials) {
       BETTER[metric.direction],
       hidden(labels.direction_words(metric.direction))
     ),
-    number_cell('mean', show(summary.mean), numbers.interval(summary.low, summary.high, decimals)),
+    number_cell('mean', show(summary.mean), numbers.none_of(summary) || numbers.interval(summary.low, summary.high, decimals)),
     number('sd', show(summary.sd)),
     number('median', show(summary.median)),
     number('defined', `${summary.defined}/${trials}`),

@@ -45,7 +45,7 @@ function cell_element(cell, column) {
     element(
       'span',
       {class: 'interval'},
-      numbers.interval(cell.low, cell.high, column.decimals),
+      numbers.none_of(cell) || numbers.interval(cell.low, cell.high, column.decimals),
       partly && element('span', {class: 'partly'}, ` ${cell.defined}/${cell.trials}`)
     ),
     paper_line(cell, column)

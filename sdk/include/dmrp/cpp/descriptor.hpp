@@ -2,6 +2,7 @@
 // cpp/descriptor.hpp: the description of a plugin class, built in its static describe().
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,6 +25,15 @@ enum class Subjects : std::uint32_t {
   system_and_robots = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_ROBOT,
   system_and_pedestrians = 1u << DMRP_SUBJECT_SYSTEM | 1u << DMRP_SUBJECT_PEDESTRIAN
 };
+
+// What a metric's value can be, both ends included.
+struct ValueRange {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+};
+inline constexpr ValueRange share_range{0.0, 1.0};
+inline constexpr ValueRange percent_range{0.0, 100.0};
+inline constexpr ValueRange never_negative{0.0, std::numeric_limits<double>::infinity()};
 
 class Descriptor {
  public:
@@ -54,9 +64,9 @@ class Descriptor {
   Descriptor& flags(std::uint32_t bits) { return flags_ |= bits, *this; }
 
   // Metrics: the values computed, and the channels (DMRP_CHANNEL_* bits) needed for them.
-  Descriptor& value(std::string name, std::string unit, Direction direction, Subjects subjects,
-                    std::string description) {
-    values_.push_back({std::move(name), std::move(unit), std::move(description), direction, subjects, 0, 0});
+  Descriptor& value(std::string name, std::string unit, Direction direction, Subjects subjects, std::string description,
+                    ValueRange range = {}) {
+    values_.push_back({std::move(name), std::move(unit), std::move(description), direction, subjects, 0, 0, range});
     return *this;
   }
   Descriptor& wall_clock() { return values_.back().wall_clock = 1, *this; }  // marks the value added last
@@ -70,6 +80,7 @@ class Descriptor {
     Direction direction;
     Subjects subjects;
     std::uint32_t wall_clock, curve;
+    ValueRange range;
   };
   std::string id_, name_, version_, vendor_, license_, url_, manual_url_, summary_, source_;
   std::vector<std::string> features_, needed_, uses_;
@@ -171,7 +182,8 @@ class PublishedDescriptor {
   void publish_values() {
     for (const Descriptor::Value& v : descriptor_.values_) {
       values_.push_back({v.name.c_str(), v.unit.c_str(), v.description.c_str(), static_cast<std::uint32_t>(v.direction),
-                         static_cast<std::uint32_t>(v.subjects), v.wall_clock, v.curve});
+                         static_cast<std::uint32_t>(v.subjects), v.wall_clock, v.curve, v.range.minimum,
+                         v.range.maximum});
     }
   }
 

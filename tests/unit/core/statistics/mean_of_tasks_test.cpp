@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <dmrp/toolkit/random.hpp>
 #include <limits>
 #include <vector>
 
@@ -130,6 +131,28 @@ TEST_CASE("the difference of tasks", "[statistics]") {
     CHECK(all.interval.high == 1.0);
     CHECK(all.interval.low < 0.0);
   }
+}
+
+TEST_CASE("the p value of a mean is of its interval's procedure", "[statistics]") {
+  // Fisher, The Design of Experiments, section 17: Darwin's maize, t = 2.148 with 14 degrees of freedom, p = 0.0497
+  CHECK(student_two_sided(15, 2.148) == Approx(0.0497).margin(1e-4));
+  CHECK(student_two_sided(15, -2.148) == student_two_sided(15, 2.148));
+  int significant = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    dmrp::toolkit::Stream random(seed, "test");
+    const double shift = 0.5 * random.uniform();
+    std::vector<double> values(10 + seed % 7);
+    for (double& value : values) value = std::clamp(shift + 0.5 * random.normal(), -1.0, 1.0);
+    for (const Bounds& bounds : {Bounds(share_bounds), Bounds()}) {
+      const MeanOfTasks found = difference_of_tasks(values, bounds, one_world(values.size()));
+      INFO("seed " << seed << ", p " << found.p << " [" << found.interval.low << ", " << found.interval.high << "]");
+      // counts of resamples and their quantiles differ by less
+      if (std::fabs(found.p - 0.05) > 0.002)
+        CHECK((found.p < 0.05) == (found.interval.low > 0.0 || found.interval.high < 0.0));
+      significant += found.p < 0.05 ? 1 : 0;
+    }
+  }
+  CHECK((significant > 100 && significant < 500));
 }
 
 TEST_CASE("the rule of three", "[statistics]") {

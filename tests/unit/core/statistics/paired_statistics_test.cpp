@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/statistics/holm.hpp"
-#include "core/statistics/sign_flip.hpp"
 #include "core/statistics/signed_rank.hpp"
 
 namespace paired_statistics_test {
@@ -58,12 +57,6 @@ double signed_rank_sum(const std::vector<double>& differences) {
     const double rank = below + 0.5 * (same + 1.0);
     sum += difference > 0.0 ? rank : difference < 0.0 ? -rank : 0.0;
   }
-  return sum;
-}
-
-double plain_sum(const std::vector<double>& differences) {
-  double sum = 0.0;
-  for (const double difference : differences) sum += difference;
   return sum;
 }
 
@@ -186,41 +179,6 @@ TEST_CASE("the Hodges-Lehmann estimate and its interval", "[statistics]") {
     CHECK(shift.interval.low == Approx(74.5 - 1.96 * 150.0 / std::sqrt(12.0 * 150.0)).margin(0.6));
   }
   CHECK(std::isnan(hodges_lehmann({}).estimate));
-}
-
-TEST_CASE("the sign-flip test of the mean", "[statistics]") {
-  SECTION("Fisher, The Design of Experiments, section 21: Darwin's maize, 1726 of 32768") {
-    const SignFlipTest test = sign_flip_test(darwin_maize());
-    CHECK(test.mean == Approx(314.0 / 15.0));
-    CHECK(test.exact);
-    CHECK(test.p == 1726.0 / 32768.0);
-  }
-  SECTION("brute force") {
-    for (std::uint64_t seed = 0; seed < 30; ++seed) {
-      const std::vector<double> differences = drawn_differences(seed, 1 + seed % 11, 4.0);
-      INFO("seed " << seed);
-      CHECK(sign_flip_test(differences).p == Approx(brute_force_p(differences, plain_sum)).epsilon(1e-12));
-    }
-  }
-  SECTION("of binary differences is the sign test: 8 of 9 in favour, 2 * 10 / 512") {
-    std::vector<double> differences(8, 0.25);
-    differences.push_back(-0.25);
-    differences.insert(differences.end(), 30, 0.0);  // zeros have no sign to flip
-    const SignFlipTest test = sign_flip_test(differences);
-    CHECK(test.exact);
-    CHECK(test.p == 20.0 / 512.0);
-  }
-  SECTION("of many is drawn, and repeats") {
-    std::vector<double> differences;
-    for (int i = 0; i < 24; ++i) differences.push_back(i % 3 == 0 ? -1.0 : 1.0);  // 8 against 16
-    const SignFlipTest test = sign_flip_test(differences);
-    CHECK_FALSE(test.exact);
-    // twice the chance of at most 8 heads in 24 tosses: 0.1516
-    CHECK(test.p == Approx(0.1516).margin(0.011));
-    CHECK(sign_flip_test(differences).p == test.p);
-  }
-  CHECK(sign_flip_test(std::vector<double>{0.0, 0.0}).p == 1.0);
-  CHECK(std::isnan(sign_flip_test({}).p));
 }
 
 TEST_CASE("Holm's correction", "[statistics]") {

@@ -69,6 +69,26 @@ TEST_CASE("five tasks under five seeds each are five observations", "[results]")
   }
 }
 
+TEST_CASE("an interval stays within what a metric can be, and none had any is said by the rule of three", "[results]") {
+  std::vector<MetricColumn> metrics = example_metrics();
+  std::vector<TrialRecord> trials;
+  for (std::uint32_t i = 0; i < 20; ++i) trials.push_back(example_trial(i, "A", i, 40.0, 0.5));
+  const auto touches_of = [&](std::uint32_t with_some) {
+    for (std::uint32_t i = 0; i < 20; ++i)
+      for (MetricValue& value : trials[i].values)
+        if (value.metric == "touches") value.value = i < with_some ? 3.0 : 0.0;
+    return summarise(metrics, trials, {})[0].metrics[4];
+  };
+  CHECK(touches_of(2).interval.low < 0.0);
+  CHECK(std::isnan(touches_of(0).at_most));  // not known to be never negative
+  metrics[4].minimum = 0.0;
+  CHECK(touches_of(2).interval.low == 0.0);
+  CHECK(touches_of(2).interval.high > 0.3);
+  CHECK(std::isnan(touches_of(2).at_most));
+  CHECK(std::isnan(touches_of(0).interval.high));
+  CHECK(touches_of(0).at_most == Approx(0.139).margin(1e-3));
+}
+
 TEST_CASE("crowds that meet listed tasks are observations", "[results]") {
   std::vector<TrialRecord> trials;
   for (std::uint32_t i = 0; i < 20; ++i) {

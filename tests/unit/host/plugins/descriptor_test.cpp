@@ -32,7 +32,7 @@ dmrp_param_spec parameter(const char* key, std::uint32_t type) {
 }
 
 dmrp_metric_value_spec value(const char* name) {
-  return {name, "m", "what it is", DMRP_DIRECTION_LOWER, 1u << DMRP_SUBJECT_SYSTEM, 0, 0};
+  return {name, "m", "what it is", DMRP_DIRECTION_LOWER, 1u << DMRP_SUBJECT_SYSTEM, 0, 0, 0.0, 0.0};
 }
 
 void give(dmrp_descriptor& descriptor, const GrownArray<dmrp_param_spec>& elements) {
@@ -177,7 +177,7 @@ TEST_CASE("a library of another draft, or for a newer host, gets one line") {
   SECTION("draft 1") {
     odd.entry().abi_draft = 1;
     odd.entry().struct_size = 48;  // whatever else that draft had
-    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 4: build it again");
+    CHECK(OddLibrary::refusal() == "built for draft 1 of the v1 contract, this host has draft 5: build it again");
   }
   SECTION("a newer host") {
     odd.entry().min_host_minor = 3;
@@ -315,6 +315,13 @@ TEST_CASE("a metric's value needs a plain name and the system") {
     odd.descriptor(odd_metric).traits = &traits;
     CHECK(OddLibrary::refusal() ==
           "test.odd.metric: declares the value 'length' without the system among its subjects");
+  }
+  SECTION("a range upside down") {
+    spec.minimum = 1.0;
+    const auto values = array_of(std::vector{spec});
+    const dmrp_metric_traits traits = metric_traits(values);
+    odd.descriptor(odd_metric).traits = &traits;
+    CHECK(OddLibrary::refusal() == "test.odd.metric: the value 'length' has the range 1 to 0");
   }
 }
 

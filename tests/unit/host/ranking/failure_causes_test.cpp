@@ -42,6 +42,17 @@ TEST_CASE("failures are counted by combination and cause", "[ranking]") {
   CHECK(excluded_robots("done", trials[2]) == 1);
 }
 
+TEST_CASE("contacts of robots that failed are counted, too", "[ranking]") {
+  SummaryLayout layout = ranking_layout();
+  std::vector<TrialRecord> trials;
+  add_trials(trials, "a", 1, [](std::uint32_t) { return std::vector<RobotResult>(3, {std::nullopt, true, 10.0}); });
+  for (const std::uint64_t robot : {0u, 1u, 2u})
+    trials[0].values.push_back({"hits", DMRP_SUBJECT_ROBOT, robot, std::nullopt, robot < 2 ? 2.0 - robot : 0.0});
+  CHECK(failures_line(failure_causes(layout, trials)) == "3 did not arrive: 3 deadlock");
+  layout.at_fault = "hits";
+  CHECK(failures_line(failure_causes(layout, trials)) == "3 did not arrive: 3 deadlock (2 after a contact)");
+}
+
 TEST_CASE("the robots that others wait for are counted once a trial and cause", "[ranking]") {
   std::vector<TrialRecord> trials;
   add_trials(trials, "a", 2, [](std::uint32_t) {

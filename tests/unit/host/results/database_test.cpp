@@ -253,7 +253,7 @@ TEST_CASE("unusable databases are reported with the reason", "[results]") {
     const auto other = folder / (std::string("other") + version + ".sqlite");
     SqliteConnection(other, SqliteMode::create).execute(std::string("PRAGMA user_version = ") + version);
     for (const auto open : {&ResultsDatabase::open, &ResultsDatabase::open_read_only})
-      CHECK_THROWS_WITH(open(other), Catch::Contains(std::string("version ") + version + ", not 5"));
+      CHECK_THROWS_WITH(open(other), Catch::Contains(std::string("version ") + version + ", not 6"));
   }
 }
 

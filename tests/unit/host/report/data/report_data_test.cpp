@@ -31,7 +31,7 @@ ReportLayouts example_layouts() {
           parse_report_layout(R"({
             "diagnosis": {"x": "speed", "y": ["time", "done", "not measured"]},
             "comparisons": [{"metric": "time", "test": "signed_rank", "censored": true},
-                            {"metric": "done", "test": "sign_flip"}, {"metric": "not measured"}],
+                            {"metric": "done", "test": "mean"}, {"metric": "not measured"}],
             "completion": {"metric": "time"},
             "curves": [{"metric": "curve", "coordinate": "distance", "coordinate_unit": "m"}]
           })",
@@ -392,10 +392,10 @@ TEST_CASE("the delay of people is the progress lost against the same crowd witho
 
 TEST_CASE("layouts of reports are checked", "[report]") {
   CHECK_THROWS_WITH(parse_report_layout("{\"tabels\": []}", "a.json"), "a.json: unknown key 'tabels'");
-  CHECK_THROWS_WITH(parse_report_layout("{\"comparisons\": [{\"test\": \"sign_flip\"}]}", "a.json"),
+  CHECK_THROWS_WITH(parse_report_layout("{\"comparisons\": [{\"test\": \"mean\"}]}", "a.json"),
                     "a.json: a comparison without 'metric'");
   CHECK_THROWS_WITH(parse_report_layout("{\"comparisons\": [{\"metric\": \"x\", \"test\": \"t\"}]}", "a.json"),
-                    "a.json: 'test' must be \"signed_rank\" or \"sign_flip\"");
+                    "a.json: 'test' must be \"signed_rank\" or \"mean\"");
   CHECK_THROWS_WITH(
       parse_report_layout("{\"comparisons\": [{\"metric\": \"x\", \"censored\": true, \"both_succeeded\": true}]}",
                           "a.json"),
