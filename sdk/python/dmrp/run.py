@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import os
 import sqlite3
@@ -18,6 +19,7 @@ from .host import InputError, call_host
 from .trace import Trace
 
 WITH_FAULTS = 1  # the status of dmrp-host where a trial ended in a fault
+CSV: dict[str, Any] = {"float_precision": "round_trip", "keep_default_na": False, "na_values": [""]}  # of the host
 
 
 class Trial:
@@ -76,11 +78,16 @@ class Run:
     def summary(self, metrics: Sequence[str] = ()) -> pd.DataFrame:
         """The rows of summary.csv: a combination and metric each, with mean, ci_low, ci_high and n, the number of tasks.
         `metrics`: these alone."""
-        table = pd.read_csv(self.path / "summary.csv", float_precision="round_trip", keep_default_na=False, na_values=[""])
+        table = pd.read_csv(self.path / "summary.csv", **CSV)
         missing = [name for name in metrics if name not in set(table["metric"])]
         if missing:
             raise InputError(f"{self.path}: has no metric {missing[0]}")
         return table[table["metric"].isin(metrics)].reset_index(drop=True) if metrics else table
+
+    def thresholds(self) -> pd.DataFrame:
+        """A row a test with levels and combination: the level that is passed half of the time as threshold, ci_low, ci_high,
+        infinite where it lies beyond the levels, and in words as `shown`; `levels` from the hardest to the easiest."""
+        return pd.read_csv(io.StringIO(call_host(["export", self.path, "--thresholds"])), **CSV)
 
     def sql(self, query: str, *values: Any) -> pd.DataFrame:
         """The rows of a query of results.sqlite; ? stands for `values`."""
