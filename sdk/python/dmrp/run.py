@@ -20,6 +20,7 @@ from .trace import Trace
 
 WITH_FAULTS = 1  # the status of dmrp-host where a trial ended in a fault
 CSV: dict[str, Any] = {"float_precision": "round_trip", "keep_default_na": False, "na_values": [""]}  # of the host
+_NUMBERS = ("before", "after", "difference", "low", "high", "p", "p_holm")  # of a metric in `compare --json`
 
 
 class Trial:
@@ -97,10 +98,27 @@ class Run:
     def _database(self) -> Path:
         return (self.path / "results.sqlite").resolve()
 
-    def compare(self, other: Run, metrics: Sequence[str] = ()) -> str:
-        """What `dmrp-host compare` says of this run, before, and the other, after."""
+    def compare(self, other: Run, metrics: Sequence[str] = (), *, by_combination: bool = False) -> pd.DataFrame:
+        """This run, before, and the other, after, over the trials that both have, by `dmrp-host compare`.
+
+        A row a metric (with `by_combination` a combination and metric): unit, pairs of trials, n, means `before` and `after`,
+        `difference` (after - before) with ci_low and ci_high, `equal`, p and p_holm; NaN where there is none."""
+        data = json.loads(self._compared(other, metrics, "--json"))
+        after = data["runs"][0]
+        parts = zip(after["combinations"], after["of_combinations"]) if by_combination else [({}, after["differences"])]
+        units = {metric["name"]: metric["unit"] for metric in data["metrics"]}
+        rows = [labels | {"unit": units[row["metric"]]} | row for labels, part in parts for row in part]
+        columns = [*(after["combinations"][0] if by_combination else []), "metric", "unit", "pairs", "n", *_NUMBERS, "equal"]
+        table = pd.DataFrame(rows).reindex(columns=columns).astype(dict.fromkeys(_NUMBERS, float))
+        return table.rename(columns={"low": "ci_low", "high": "ci_high"})
+
+    def compare_text(self, other: Run, metrics: Sequence[str] = ()) -> str:
+        """What `dmrp-host compare` prints: compare() as a table, and what else differs between the runs."""
+        return self._compared(other, metrics)
+
+    def _compared(self, other: Run, metrics: Sequence[str], *options: str) -> str:
         chosen = [word for name in metrics for word in ("--metric", name)]
-        return call_host(["compare", self.path, other.path, *chosen])
+        return call_host(["compare", self.path, other.path, *chosen, *options])
 
     def trial(self, number: int) -> Trial:
         """Trial `number`, as the column id has it."""
