@@ -12,7 +12,7 @@ namespace dmrp::core {
 
 template <class Content>
 void TraceEncoder::record(TraceRecordKind kind, const Content& content) {
-  write_record(record_, kind, content, TraceForm::current, written_bytes_);
+  write_record(record_, kind, content, written_bytes_);
   written_bytes_ += record_.size();
   sink_(now_ns_, record_);
 }

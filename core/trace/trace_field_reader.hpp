@@ -47,7 +47,6 @@ class TraceFieldReader {
   void values(Values&... values) {
     ((values = in_.take<Values>()), ...);
   }
-  void clock_time(std::int64_t& ns) { values(ns); }
 
   void text(const char*& to) {
     const std::string_view text = in_.take_text();

@@ -15,19 +15,15 @@
 
 namespace dmrp::core {
 
-// `canonical` is the form of canonical_records.hpp.
-enum class TraceForm { current, canonical };
-
 class TraceFieldWriter {
  public:
-  TraceFieldWriter(TraceBytes& bytes, TraceForm form) : out_(bytes), form_(form) {}
+  explicit TraceFieldWriter(TraceBytes& bytes) : out_(bytes) {}
 
   template <class... Values>
   void values(const Values&... values) {
     (out_.put(values), ...);
   }
 
-  void clock_time(std::int64_t ns) { out_.put(form_ == TraceForm::canonical ? std::int64_t{0} : ns); }
   void text(std::string_view text) { out_.put_text(text); }
   void text(const char* text) { out_.put_text(text ? std::string_view(text) : std::string_view()); }
 
@@ -55,16 +51,6 @@ class TraceFieldWriter {
     if (stride == sizeof(Element)) return out_.put_array(elements, count);
     for (std::uint32_t i = 0; i < count; ++i) out_.put_array(DMRP_AT(Element, elements, stride, i), 1);
   }
-  void elements(const dmrp_call* calls, std::uint32_t count, std::uint32_t stride) {
-    if (form_ == TraceForm::current) return elements<dmrp_call>(calls, count, stride);
-    out_.put(count);
-    out_.put(static_cast<std::uint32_t>(sizeof(dmrp_call)));
-    for (std::uint32_t i = 0; i < count; ++i) {
-      dmrp_call call = *DMRP_AT(dmrp_call, calls, stride, i);
-      call.duration_ns = 0;
-      out_.put_array(&call, 1);
-    }
-  }
 
   template <class Struct>
   void pointer(const Struct* content) {
@@ -83,14 +69,13 @@ class TraceFieldWriter {
 
  private:
   ByteWriter out_;
-  TraceForm form_;
 };
 
 // Replaces `bytes` by a whole record, with its length and kind. `offset`: of the record in the trace, for errors.
 template <class Content>
-void write_record(TraceBytes& bytes, TraceRecordKind kind, const Content& content, TraceForm form, std::size_t offset) {
+void write_record(TraceBytes& bytes, TraceRecordKind kind, const Content& content, std::size_t offset) {
   bytes.clear();
-  TraceFieldWriter out(bytes, form);
+  TraceFieldWriter out(bytes);
   out.values(std::uint32_t{0}, kind);
   fields(out, content);
   const std::size_t body_bytes = bytes.size() - trace_record_prefix_bytes;

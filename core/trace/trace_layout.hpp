@@ -84,10 +84,8 @@ void fields(auto& io, Of<dmrp_statistic> auto& statistic) {
 
 void fields(auto& io, Of<TracePlan> auto& content) {
   auto& plan = content.plan;
-  io.values(content.made_at_ns, plan.revision, plan.from_ns, plan.step_duration_ns);
-  io.clock_time(plan.planning_ns);
-  io.clock_time(plan.processor_ns);
-  io.values(plan.status, content.conflicts);
+  io.values(content.made_at_ns, plan.revision, plan.from_ns, plan.step_duration_ns, plan.planning_ns, plan.processor_ns,
+            plan.status, content.conflicts);
   io.structs(plan.paths, plan.path_count, plan.path_stride);
   io.structs(plan.statistics, plan.statistic_count, plan.statistic_stride);
 }

@@ -5,6 +5,7 @@
 // A line is `name: fields`, or `name = kind: fields` of a record; a field is a type and a name. Types are numbers (u8,
 // u16, u32, u64, i32, i64, f32, f64), names of earlier lines, whose fields then stand in place, without padding, and
 //
+//   clock                 i64 of nanoseconds that a clock measured: others at each run; clock_times.hpp finds them
 //   text                  u32 count · UTF-8
 //   array T               u32 count · the values
 //   elements T            u32 count · u32 stride · the elements, each a T and what the contract appended to it
@@ -32,7 +33,7 @@ inline constexpr const char* trace_schema =
     "person: u64 id, u32 group, u32 target_id, vec2 position, vec2 velocity, f64 radius_m, f64 desired_speed, "
     "vec2 target, vec2 area_lower, vec2 area_upper, u32 reaction, u32 reserved\n"
     "contact: u32 kind, u32 flags, u32 a, u32 b, f64 depth_m, vec2 point, f64 impact_speed\n"
-    "call: u32 kind, u32 robot, i32 status, u32 reserved, i64 duration_ns\n"
+    "call: u32 kind, u32 robot, i32 status, u32 reserved, clock duration_ns\n"
     "robot_event: u32 kind, u32 robot, i64 t_ns, u32 detail, u32 other\n"
     "robot_end: u32 state, u32 failure, i64 arrival_ns, u32 visits, u32 culprit\n"
     "source: u32 plugin_kind, u32 robot\n"
@@ -51,7 +52,7 @@ inline constexpr const char* trace_schema =
     "world = 1: u32 format_version, u32 person_count, vec2 lower, vec2 upper, i64 step_ns, i64 control_period_ns, "
     "i64 time_limit_ns, i64 call_budget_ns, f64 person_radius_m, blocks robot robots, blocks shape shapes, "
     "array segment segments, optional block grid planning_grid\n"
-    "plan = 2: i64 made_at_ns, u64 revision, i64 from_ns, i64 step_duration_ns, i64 planning_ns, i64 processor_ns, "
+    "plan = 2: i64 made_at_ns, u64 revision, i64 from_ns, i64 step_duration_ns, clock planning_ns, clock processor_ns, "
     "i32 status, u32 conflicts, blocks path paths, blocks statistic statistics\n"
     "sample = 3: i64 t_ns, i64 dt_ns, u32 control_tick, u64 plan_revision, elements robot_sample robots, "
     "elements person people, elements contact contacts, elements call calls, elements robot_event events, "

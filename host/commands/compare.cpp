@@ -25,6 +25,7 @@ struct CompareOptions {
   std::vector<std::string> metrics;  // empty: those that the report compares
   std::vector<std::string> fail_if;  // "success < -0.02"
   fs::path report;                   // empty: no page is written
+  bool json = false;                 // the page's data instead of tables
 };
 
 // What is compared: the metrics that the report compares, those of its answer, and those of conditions.
@@ -135,15 +136,16 @@ int compare_command(const CompareOptions& options) {
     if (comparison.pairs == 0)
       throw InputError(fmt::format("{}: no trial has scenario, robots, seed and labels of one in {}",
                                    options.runs[i].string(), options.runs.front().string()));
-    print_comparison(comparison, options.runs.front(), options.runs[i]);
+    if (!options.json) print_comparison(comparison, options.runs.front(), options.runs[i]);
     const int of_run = judge_conditions(comparison, conditions);
     if (of_run == exit_status::worse || status == exit_status::done) status = of_run;
     after.trials.clear();  // one run is in memory at a time
     compared.others.push_back({{options.runs[i].string(), std::move(after)}, std::move(comparison)});
   }
+  const std::string data = comparison_data_json(compared, layouts);
+  if (options.json) fmt::print("{}\n", data);
   if (!options.report.empty())
-    write_output("--report", options.report,
-                 report_page(shared_data_path() / "report", "compare", comparison_data_json(compared, layouts), {}));
+    write_output("--report", options.report, report_page(shared_data_path() / "report", "compare", data, {}));
   return status;
 }
 
@@ -159,13 +161,16 @@ void add_compare(CLI::App& app) {
   command->add_option("--metric", options->metrics, "metrics (default: those that the report compares)")
       ->delimiter(',')
       ->type_name("NAME");
-  command
-      ->add_option(
-          "--fail-if", options->fail_if,
-          "exit with 1 if the interval of the metric's difference lies beyond this, with 4 if the trials cannot "
-          "decide")
-      ->allow_extra_args(false)
-      ->type_name("\"METRIC < X\"");
+  CLI::Option* fail_if =
+      command
+          ->add_option(
+              "--fail-if", options->fail_if,
+              "exit with 1 if the interval of the metric's difference lies beyond this, with 4 if the trials cannot "
+              "decide")
+          ->allow_extra_args(false)
+          ->type_name("\"METRIC < X\"");
+  command->add_flag("--json", options->json, "print one JSON object: means, differences and p of each metric")
+      ->excludes(fail_if);
   command->add_option("--report", options->report, "write the comparison as a page, by combination, too")
       ->type_name("FILE.html");
   finish_command(command, "dmrp-host compare runs/before runs/after --fail-if \"success < -0.02\"",

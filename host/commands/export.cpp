@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results for papers and for other programs: LaTeX tables, CSV, a figure.
+// Results for papers and for other programs: LaTeX tables, CSV, a table or a map as a figure.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,10 +15,9 @@
 #include "host/commands/figure_file.hpp"
 #include "host/commands/trial_trace.hpp"
 #include "host/errors/input_error.hpp"
-#include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
-#include "host/export/threshold_chart.hpp"
+#include "host/export/thresholds_table.hpp"
 #include "host/export/trials_table.hpp"
 #include "host/program/executable.hpp"
 #include "host/report/data/report_data.hpp"
@@ -28,7 +27,7 @@ namespace dmrp::host {
 
 namespace {
 
-enum class ExportFormat { latex, csv, table, svg, thresholds, map };
+enum class ExportFormat { latex, csv, table, thresholds, map };
 constexpr const char* own_table = "own";
 
 struct ExportOptions {
@@ -37,10 +36,9 @@ struct ExportOptions {
   std::vector<std::string> rows;     // labels; empty with the others: the tables of the report
   std::vector<std::string> columns;  // labels
   std::vector<std::string> metrics;
-  std::string table;            // table: one of the report's, or own_table, of rows, columns and metrics
-  std::string over = "robots";  // svg: what the metric is drawn over
-  std::uint64_t trial = 0;      // map: the trial
-  std::filesystem::path out;    // empty: standard output; figures also to a .png or .pdf
+  std::string table;          // table: one of the report's, or own_table, of rows, columns and metrics
+  std::uint64_t trial = 0;    // map: the trial
+  std::filesystem::path out;  // empty: standard output; figures also to a .png or .pdf
 };
 
 SummaryTableColumn parse_column(const nlohmann::json& json) {
@@ -147,17 +145,10 @@ std::string table_svg(const ExportOptions& options, const ReportRun& run, const 
   return table_figure(table);
 }
 
-std::string figure(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts,
-                   const RunSettings& settings) {
-  if (options.metrics.size() > 1) throw InputError("--svg: draws one --metric");
-  const std::string metric = options.metrics.empty() ? layouts.summary.arrived : options.metrics.front();
-  return svg_document(metric_over(metric, options.over, layouts.summary, run.metrics, run.trials, settings));
-}
-
 std::string thresholds(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
   const auto series = graded_series(layouts.summary, run.manifest.experiment.scenarios, run.trials);
   if (series.empty()) throw InputError(options.run_directory.string() + ": no scenario of this run has levels");
-  return threshold_chart(series);
+  return thresholds_table_csv(series);
 }
 
 std::vector<MetricColumn> chosen_metrics(const ExportOptions& options, std::span<const MetricColumn> metrics) {
@@ -178,10 +169,6 @@ std::string map_of(const ExportOptions& options) {
   return map.document(format, found.title);
 }
 
-bool is_figure(ExportFormat format) {
-  return format == ExportFormat::table || format == ExportFormat::svg || format == ExportFormat::thresholds;
-}
-
 int export_command(const ExportOptions& options) {
   check_output_file("--out", options.out);
   if (options.format == ExportFormat::map) {
@@ -200,11 +187,9 @@ int export_command(const ExportOptions& options) {
     text = table_svg(options, run, layouts);
   } else {
     const RunSettings settings(run.effective_toml, run.trials, people_counts(run.manifest.experiment.scenarios));
-    text = options.format == ExportFormat::csv
-               ? trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings)
-               : figure(options, run, layouts, settings);
+    text = trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings);
   }
-  if (is_figure(options.format))
+  if (options.format == ExportFormat::table)
     write_figure("--out", options.out, text);
   else
     write_output("--out", options.out, text);
@@ -224,8 +209,7 @@ void add_export(CLI::App& app) {
   };
   format("--latex", ExportFormat::latex, "tables with booktabs: those of the report, or one of --rows and --columns");
   format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
-  CLI::Option* svg = format("--svg", ExportFormat::svg, "one --metric over --over, as lines with 95 % intervals");
-  format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as an SVG figure");
+  format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as CSV");
   formats
       ->add_option_function<std::uint64_t>(
           "--map",
@@ -249,13 +233,9 @@ void add_export(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--columns", options->columns, "the same, across")->delimiter(',');
   command->add_option("--metric", options->metrics, "only these metrics")->delimiter(',')->type_name("NAME");
-  command->add_option("--over", options->over, "robots, people, or a parameter or setting as --csv names it")
-      ->needs(svg)
-      ->capture_default_str()
-      ->type_name("NAME");
   command
       ->add_option("--out", options->out,
-                   "output file (default: standard output); figures also as .pdf and .png, charts by rsvg-convert")
+                   "output file (default: standard output); figures also as .pdf and .png, tables by rsvg-convert")
       ->type_name("FILE");
   finish_command(command, "dmrp-host export runs/quickstart --latex --out tables.tex",
                  [options] { return export_command(*options); });

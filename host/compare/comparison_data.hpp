@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// comparison_data.hpp: the data of a comparison's page as one JSON text. NaN is null. As far as they go, keys are those of
+// comparison_data.hpp: the data of a comparison's page, and of `compare --json`, as one JSON text. NaN is null. As far as they go, keys are those of
 // a report (report_data.hpp):
 //
 //   format        1
@@ -9,8 +9,8 @@
 //                 changes: [text], libraries: [{name, before, after}] with SHA-256s, or null where the run has none,
 //                 differences: [difference], combinations: [{scenario, robots, global_planner, local_controller,
 //                 pedestrian_model}], of_combinations: [combination][metric]: difference}
-//   difference    {metric, pairs, tasks, before, after, difference, low, high, equal, p, p_holm}; p: null below five
-//                 tasks, or if no pair differs
+//   difference    {metric, pairs, n, before, after, difference, low, high, equal, p, p_holm}; p: null below five
+//                 observations, or if no pair differs
 #pragma once
 
 #include <string>

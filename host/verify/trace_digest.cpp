@@ -2,7 +2,7 @@
 #include "host/verify/trace_digest.hpp"
 
 #include "core/mcap/mcap_reader.hpp"
-#include "core/trace/canonical_records.hpp"
+#include "core/trace/clock_times.hpp"
 #include "core/trace/trace.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/files/sha256.hpp"
@@ -16,7 +16,7 @@ std::string digest_of_messages(const std::filesystem::path& trace) {
   Sha256 hash;
   std::size_t count = 0;
   for (auto message = file.next(); message; message = file.next(), ++count) {
-    const core::TraceBytes record = core::canonical_record(message->data);
+    const core::TraceBytes record = core::without_clock_times(message->data);
     hash.add(&message->log_time_ns, sizeof(message->log_time_ns));
     hash.add(record.data(), record.size());
   }

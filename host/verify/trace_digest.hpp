@@ -8,7 +8,7 @@
 namespace dmrp::host {
 
 // SHA-256, hexadecimal, over all messages of the channel dmrp/trace in the order of the file: the log time of each, and
-// its record in the form of core/trace/canonical_records.hpp, which has no times that a clock measured. Not in it: how
+// its record without the times that a clock measured (core/trace/clock_times.hpp). Not in it: how
 // the messages are spread over compressed chunks, and the channels for people to look at.
 // Throws InputError where the trace is damaged, was cut short or has no such message, and std::system_error.
 std::string trace_digest(const std::filesystem::path& trace);

@@ -37,6 +37,10 @@ refused() {
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
   grep -Eq "$1" "$scratch/stderr" || fail "'$(cat "$scratch/stderr")' does not match '$1'"
 }
+expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric success --json
+grep -Eq '"differences":\[\{"metric":"success","pairs":12,"n":3,' "$scratch/stdout" || fail "no JSON of the differences"
+[[ $(wc -l <"$scratch/stdout") == 1 ]] || fail "more than one JSON object: $(cat "$scratch/stdout")"
+
 refused "did you mean 'success'" "$before" "$after" --fail-if "sucess < 0"
 refused "not of the form" "$before" "$after" --fail-if "success = 0"
 refused "is no run directory" "$before" "$scratch"

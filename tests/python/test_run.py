@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import csv
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +66,24 @@ def test_a_resumed_run_equals_an_uninterrupted_one(run: dmrp.Run, tmp_path: Path
     assert resumed.sql(values).equals(run.sql(values))
     for trial in range(3):
         assert resumed.trial(trial).trace.robots.tobytes() == run.trial(trial).trace.robots.tobytes()
+
+
+def test_a_comparison_has_the_hosts_numbers(run: dmrp.Run, tmp_path: Path) -> None:
+    shutil.copytree(run.path, tmp_path / "other")
+    forge = Path(__file__).resolve().parents[1] / "end_to_end" / "forge.py"
+    change = "UPDATE value SET value = value + 1 WHERE metric = 'pfd' AND subject_kind = 'system'"
+    subprocess.run([sys.executable, forge, tmp_path / "other" / "results.sqlite", change], check=True)
+    other = dmrp.load(tmp_path / "other")
+    (row,) = run.compare(other, metrics=["pfd"]).to_dict("records")
+    assert (row["metric"], row["unit"], row["pairs"], row["n"], row["equal"]) == ("pfd", "m", 3, 3, False)
+    assert row["difference"] == pytest.approx(1.0) and row["before"] == run.summary(metrics=["pfd"])["mean"][0]
+    table = run.compare(other, by_combination=True)
+    assert len(table) == len(run.compare(other)) and set(table["scenario"]) == {"mall"}
+    assert table.set_index("metric")["equal"]["success"] and table["p"].dtype == float
+    for name in ("success", "pfd"):
+        assert name in run.compare_text(other, metrics=["success", "pfd"])
+    with pytest.raises(dmrp.InputError, match="was not measured"):
+        run.compare(other, metrics=["sucess"])
 
 
 def test_progress_counts_trials(run: dmrp.Run, progress: list[dict[str, Any]]) -> None:

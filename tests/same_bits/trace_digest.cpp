@@ -16,7 +16,7 @@
 
 #include "core/bytes/trace_bytes.hpp"
 #include "core/mcap/mcap_reader.hpp"
-#include "core/trace/canonical_records.hpp"
+#include "core/trace/clock_times.hpp"
 #include "core/trace/trace.hpp"
 #include "host/files/sha256.hpp"
 
@@ -31,7 +31,7 @@ void print_records(const char* path) {
   McapReader file(path, dmrp::core::trace_topic);
   std::size_t number = 0;
   for (auto message = file.next(); message; message = file.next(), ++number) {
-    const TraceBytes record = dmrp::core::canonical_record(message->data);
+    const TraceBytes record = dmrp::core::without_clock_times(message->data);
     Sha256 one;
     one.add(record.data(), record.size());
     std::printf("%zu %d %lld %zu %s\n", number, record[4], static_cast<long long>(message->log_time_ns), record.size(),

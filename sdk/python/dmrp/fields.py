@@ -12,7 +12,8 @@ import numpy as np
 
 from .mcap import TraceError
 
-NUMBERS = {"u8": "<u1", "u16": "<u2", "u32": "<u4", "u64": "<u8", "i32": "<i4", "i64": "<i8", "f32": "<f4", "f64": "<f8"}
+NUMBERS = {"u8": "<u1", "u16": "<u2", "u32": "<u4", "u64": "<u8"}
+NUMBERS |= {"i32": "<i4", "i64": "<i8", "clock": "<i8", "f32": "<f4", "f64": "<f8"}
 
 Record = dict[str, Any]
 _u32 = struct.Struct("<I")

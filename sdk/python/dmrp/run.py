@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import os
 import sqlite3
@@ -18,6 +19,8 @@ from .host import InputError, call_host
 from .trace import Trace
 
 WITH_FAULTS = 1  # the status of dmrp-host where a trial ended in a fault
+CSV: dict[str, Any] = {"float_precision": "round_trip", "keep_default_na": False, "na_values": [""]}  # of the host
+_NUMBERS = ("before", "after", "difference", "low", "high", "p", "p_holm")  # of a metric in `compare --json`
 
 
 class Trial:
@@ -76,11 +79,16 @@ class Run:
     def summary(self, metrics: Sequence[str] = ()) -> pd.DataFrame:
         """The rows of summary.csv: a combination and metric each, with mean, ci_low, ci_high and n, the number of tasks.
         `metrics`: these alone."""
-        table = pd.read_csv(self.path / "summary.csv", float_precision="round_trip", keep_default_na=False, na_values=[""])
+        table = pd.read_csv(self.path / "summary.csv", **CSV)
         missing = [name for name in metrics if name not in set(table["metric"])]
         if missing:
             raise InputError(f"{self.path}: has no metric {missing[0]}")
         return table[table["metric"].isin(metrics)].reset_index(drop=True) if metrics else table
+
+    def thresholds(self) -> pd.DataFrame:
+        """A row a test with levels and combination: the level that is passed half of the time as threshold, ci_low, ci_high,
+        infinite where it lies beyond the levels, and in words as `shown`; `levels` from the hardest to the easiest."""
+        return pd.read_csv(io.StringIO(call_host(["export", self.path, "--thresholds"])), **CSV)
 
     def sql(self, query: str, *values: Any) -> pd.DataFrame:
         """The rows of a query of results.sqlite; ? stands for `values`."""
@@ -90,10 +98,27 @@ class Run:
     def _database(self) -> Path:
         return (self.path / "results.sqlite").resolve()
 
-    def compare(self, other: Run, metrics: Sequence[str] = ()) -> str:
-        """What `dmrp-host compare` says of this run, before, and the other, after."""
+    def compare(self, other: Run, metrics: Sequence[str] = (), *, by_combination: bool = False) -> pd.DataFrame:
+        """This run, before, and the other, after, over the trials that both have, by `dmrp-host compare`.
+
+        A row a metric (with `by_combination` a combination and metric): unit, pairs of trials, n, means `before` and `after`,
+        `difference` (after - before) with ci_low and ci_high, `equal`, p and p_holm; NaN where there is none."""
+        data = json.loads(self._compared(other, metrics, "--json"))
+        after = data["runs"][0]
+        parts = zip(after["combinations"], after["of_combinations"]) if by_combination else [({}, after["differences"])]
+        units = {metric["name"]: metric["unit"] for metric in data["metrics"]}
+        rows = [labels | {"unit": units[row["metric"]]} | row for labels, part in parts for row in part]
+        columns = [*(after["combinations"][0] if by_combination else []), "metric", "unit", "pairs", "n", *_NUMBERS, "equal"]
+        table = pd.DataFrame(rows).reindex(columns=columns).astype(dict.fromkeys(_NUMBERS, float))
+        return table.rename(columns={"low": "ci_low", "high": "ci_high"})
+
+    def compare_text(self, other: Run, metrics: Sequence[str] = ()) -> str:
+        """What `dmrp-host compare` prints: compare() as a table, and what else differs between the runs."""
+        return self._compared(other, metrics)
+
+    def _compared(self, other: Run, metrics: Sequence[str], *options: str) -> str:
         chosen = [word for name in metrics for word in ("--metric", name)]
-        return call_host(["compare", self.path, other.path, *chosen])
+        return call_host(["compare", self.path, other.path, *chosen, *options])
 
     def trial(self, number: int) -> Trial:
         """Trial `number`, as the column id has it."""

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
-#include "host/errors/input_error.hpp"
-#include "host/export/line_chart.hpp"
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
 #include "host/export/trials_table.hpp"
@@ -154,33 +152,7 @@ TEST_CASE("names are escaped for LaTeX", "[export]") {
   CHECK_THAT(latex, Contains("\\caption{A\\_B"));
 }
 
-TEST_CASE("a metric is drawn over the number of robots and over a swept parameter", "[export]") {
-  const RunSettings settings(effective, {});
-  const auto trials = example();
-  const LineChart robots = metric_over("done", "robots", ranking_layout(), ranking_metrics(), trials, settings);
-  REQUIRE(robots.lines.size() == 2);
-  CHECK(robots.lines[1].name == "fast");
-  REQUIRE(robots.lines[1].points.size() == 2);
-  CHECK(robots.lines[1].points[1].x == 4.0);
-  CHECK(robots.lines[1].points[1].mean == Approx(0.75));
-  CHECK(robots.lines[0].points[0].interval.low < 0.75);
-
-  // labels that differ by the parameter alone make one line; robots make two
-  const LineChart speed =
-      metric_over("done", "local_controller.speed", ranking_layout(), ranking_metrics(), trials, settings);
-  REQUIRE(speed.lines.size() == 2);
-  CHECK(speed.lines[0].name == "2 robots");
-  CHECK(speed.lines[0].points.size() == 2);
-  CHECK(speed.lines[0].points[0].x == 0.5);
-
-  const std::string svg = svg_document(speed);
-  CHECK(count_of(svg, "<circle") == 3);
-  CHECK_THAT(svg, Contains("local_controller.speed"));
-  CHECK_THROWS_AS(metric_over("done", "simulation.step_s", ranking_layout(), ranking_metrics(), trials, settings),
-                  InputError);
-}
-
-TEST_CASE("swept values of scenarios are columns and axes", "[export]") {
+TEST_CASE("swept values of scenarios are columns", "[export]") {
   std::vector<TrialRecord> trials;
   for (const char* people : {"6", "12"})
     for (const char* tracking : {"none", "visible"}) {
@@ -195,14 +167,6 @@ TEST_CASE("swept values of scenarios are columns and axes", "[export]") {
   const RunSettings settings(effective, trials);
   CHECK(settings.value("people", trials.front()) == "6");
   CHECK(settings.value("simulation.tracking", trials.back()) == "visible");
-
-  const LineChart chart = metric_over("done", "people", ranking_layout(), ranking_metrics(), trials, settings);
-  REQUIRE(chart.lines.size() == 2);
-  CHECK(chart.lines[0].name == "mall (tracking none)");
-  REQUIRE(chart.lines[0].points.size() == 2);
-  CHECK(chart.lines[0].points[1].x == 12.0);
-  CHECK_THROWS_AS(metric_over("done", "simulation.tracking", ranking_layout(), ranking_metrics(), trials, settings),
-                  InputError);
 }
 
 TEST_CASE("people are their number, which needs no sweep", "[export]") {
@@ -221,8 +185,7 @@ TEST_CASE("people are their number, which needs no sweep", "[export]") {
 
   const RunSettings settings(effective, trials, people);
   CHECK(settings.value("people", trials.front()) == "12");
-  const LineChart chart = metric_over("done", "people", ranking_layout(), ranking_metrics(), trials, settings);
-  CHECK(chart.lines.size() == 2);
+  CHECK(settings.value("people", trials.back()) == "1");
 
   CHECK(label_named("people") == Label::people);
   const TableSpec spec = {
