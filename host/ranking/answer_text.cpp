@@ -34,13 +34,14 @@ std::string means_words(const Answer& answer, const RankedCombination& one) {
   return words;
 }
 
-// "0.11 [0.05, 0.17] below the others": from the mean of the other levels.
-std::string effect_words(const core::LevelEffect& effect) {
+// "DWA 0.11 [0.05, 0.17] below the others"; of two levels "TEB 0.11 [0.05, 0.17] above DWA".
+std::string effect_words(const FactorEffects& factor, std::size_t level) {
+  const core::LevelEffect& effect = factor.effects[level];
   const bool below = effect.mean < 0.0;
   const double low = below ? -effect.interval.high : effect.interval.low;
   const double high = below ? -effect.interval.low : effect.interval.high;
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}] {} the others", std::fabs(effect.mean), low, high,
-                     below ? "below" : "above");
+  return fmt::format("{} {:.2f} [{:.2f}, {:.2f}] {} {}", factor.levels[level], std::fabs(effect.mean), low, high,
+                     below ? "below" : "above", factor.levels.size() == 2 ? factor.levels[1 - level] : "the others");
 }
 
 // "A, B, C and 4 more"
@@ -80,21 +81,24 @@ bool may_be_best(const RankedCombination& one) {
 // "Controllers, each with all 4 planners: in safe success, DWA 0.11 [0.05, 0.17] below the others."
 std::string factor_line(const Answer& answer, const FactorEffects& factor) {
   const std::string heading =
-      fmt::format("{}{}s, each with all {} {}s: ", static_cast<char>(std::toupper(*factor.factor)), factor.factor + 1,
-                  factor.others, factor.other);
+      fmt::format("{}{}s, each with {} {}s: ", static_cast<char>(std::toupper(*factor.factor)), factor.factor + 1,
+                  factor.others == 2 ? "both" : fmt::format("all {}", factor.others), factor.other);
   const std::string& by = answer.criteria.front().name;
+  const auto& effects = factor.effects;
+  const auto largest = static_cast<std::size_t>(
+      std::max_element(effects.begin(), effects.end(),
+                       [](const auto& a, const auto& b) { return std::fabs(a.mean) < std::fabs(b.mean); }) -
+      effects.begin());
   std::vector<std::string> words;
-  std::size_t largest = 0;
-  for (std::size_t i = 0; i < factor.levels.size(); ++i) {
-    const core::LevelEffect& effect = factor.effects[i];
-    if (std::fabs(effect.mean) > std::fabs(factor.effects[largest].mean)) largest = i;
-    if (effect.interval.low > 0.0 || effect.interval.high < 0.0)
-      words.push_back(fmt::format("{} {}", factor.levels[i], effect_words(effect)));
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const bool repeats = effects.size() == 2 && effects[i].mean < 0.0;  // two levels differ from each other alone
+    if (!repeats && (effects[i].interval.low > 0.0 || effects[i].interval.high < 0.0))
+      words.push_back(effect_words(factor, i));
   }
   if (!words.empty()) return fmt::format("{}in {}, {}.", heading, by, list_words(words));
-  if (factor.effects[largest].mean == 0.0) return heading + "the same " + by + " in every trial.";
-  return fmt::format("{}no significant difference in {} (the largest: {} {}).", heading, by, factor.levels[largest],
-                     effect_words(factor.effects[largest]));
+  if (effects[largest].mean == 0.0) return heading + "the same " + by + " in every trial.";
+  return fmt::format("{}no significant difference in {} (the largest: {}).", heading, by,
+                     effect_words(factor, largest));
 }
 
 // "A difference of 5 points in safe success"

@@ -2,6 +2,7 @@
 #include "host/results/manifest.hpp"
 
 #include <dmrp/abi.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -192,6 +193,12 @@ Manifest new_manifest(std::string dmrp_version, std::vector<std::string> command
   manifest.started_at = utc_text(started_at);
   manifest.machine = this_machine();
   return manifest;
+}
+
+std::string growth_line(const ExperimentFacts& facts) {
+  if (facts.grown_from.empty()) return "";
+  return fmt::format("You added trials after seeing results ({}, then {}): treat p values as exploratory.",
+                     fmt::join(facts.grown_from, ", then "), facts.repetitions);
 }
 
 std::string shard_text(const Shard& shard) {

@@ -63,6 +63,9 @@ struct ExperimentFacts {
   std::vector<std::uint32_t> grown_from{};  // earlier numbers of repetitions: it was continued with more
 };
 
+// "You added trials after seeing results (6, then 12): treat p values as exploratory."; "" if the run did not grow.
+std::string growth_line(const ExperimentFacts& facts);
+
 // What an experiment means (host/experiment/identity.hpp).
 using Identity = std::map<std::string, std::string>;
 

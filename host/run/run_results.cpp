@@ -22,6 +22,7 @@
 #include "host/ranking/failure_causes.hpp"
 #include "host/ranking/graded_series.hpp"
 #include "host/report/write_report.hpp"
+#include "host/results/manifest.hpp"
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/closing_line.hpp"
 #include "host/terminal/colors.hpp"
@@ -150,6 +151,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
   if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
     fmt::print("{}\n", answer_block(found.front(), failures, width));
+  const std::string growth = growth_line(read_manifest(directory / "manifest.json").experiment);
+  if (!growth.empty()) fmt::print("  {}\n\n", growth);
   fmt::print("  {}\n", closing_line(layout, results.trials));
   if (const std::string by_type = arrivals_line(layout.arrived, scenarios, results.trials); !by_type.empty())
     fmt::print("  {}\n", by_type);

@@ -76,6 +76,9 @@ expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 2 --out "$scratch/
 expect_status 0 "$host" "$scratch/many.toml" --quiet --trials 12 --resume --out "$scratch/grown"
 sed -n '/"grown_from"/,/\]/p' "$scratch/grown/manifest.json" | tr -d ' \n' | grep -qF '"grown_from":[2]' ||
   fail "the manifest does not say that the run grew"
+expect_status 0 "$host" "$scratch/many.toml" --trials 12 --resume --out "$scratch/grown"
+grep -qF "You added trials after seeing results (2, then 12): treat p values as exploratory." "$scratch/stdout" ||
+  fail "the terminal does not say that the run grew"
 
 # validate says how many tasks would show the smallest effect of interest, by how those of the last run differ
 cd "$scratch" || exit 1

@@ -327,6 +327,7 @@ void add_statistics(Json& json, const ReportFrame& frame, const ExperimentFacts&
       json_mark["metric"] = mark.metric;
     }
   json["failures_line"] = failures_line(failures);
+  json["growth_line"] = growth_line(facts);
   json["standstills_line"] = standstills_line(layouts.summary, frame.trials);
   json["failures"] = Json::array();
   for (const CombinationFailures& one : failures) json["failures"].push_back(failures_json(one));

@@ -13,6 +13,7 @@
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
 //   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
 //   failures_line     failure_causes.hpp
+//   growth_line       manifest.hpp
 //   standstills_line  likewise
 //   correlations      [{scenario, robots, global_planner, pedestrian_model, x, y, n, rho, low, high, p,
 //                     ties_share}]; n: observations

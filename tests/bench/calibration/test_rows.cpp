@@ -79,6 +79,20 @@ void add_non_inferiority(std::vector<Row>& rows, std::size_t n) {
   }));
 }
 
+// How often equal entries are called as safe: at least in half of the benchmarks.
+Row as_safe(double arrives, const std::string& words) {
+  constexpr std::size_t tasks = 60;
+  constexpr int robots = 8;
+  return {"as safe", words, tasks, Measure::power, 0.5, [arrives](Stream& random) {
+            std::vector<double> differences(tasks, 0.0);
+            for (double& value : differences)
+              for (int robot = 0; robot < robots; ++robot)
+                value += ((random.chance(arrives) ? 1.0 : 0.0) - (random.chance(arrives) ? 1.0 : 0.0)) / robots;
+            const core::Criterion criterion{{}, true, core::PairedScore::mean, 0.05, core::share_bounds};
+            return Outcome{core::non_inferior(differences, criterion, one_world(tasks, 0)), true};
+          }};
+}
+
 // Levels that are alike.
 void add_level_effects(std::vector<Row>& rows, std::size_t n) {
   for (const std::size_t levels : {2u, 4u})
@@ -107,6 +121,8 @@ std::vector<Row> test_rows() {
   std::vector<Row> rows;
   for (const std::size_t n : {std::size_t{10}, std::size_t{40}}) add_paired_tests(rows, n);
   for (const std::size_t n : {std::size_t{10}, std::size_t{40}, std::size_t{100}}) add_non_inferiority(rows, n);
+  rows.push_back(as_safe(0.9, "2 equal entries, 8 robots, .9 arrive"));
+  rows.push_back(as_safe(0.95, "2 equal entries, 8 robots, .95 arrive"));
   for (const std::size_t n : {std::size_t{10}, std::size_t{20}, std::size_t{40}}) add_level_effects(rows, n);
   for (const std::size_t n : {std::size_t{6}, std::size_t{20}}) add_correlations(rows, n);
   return rows;

@@ -78,14 +78,7 @@ export function lines(data) {
         t.missing === 1 ? 'is' : 'are'
       } missing: the run is incomplete.`
     );
-  const grown = ((data.run.manifest || {}).experiment || {}).grown_from || [];
-  if (grown.length > 0)
-    add(
-      'warning',
-      `You added trials after seeing results (${[...grown, data.run.repetitions].join(
-        ', then '
-      )}): treat p values as exploratory.`
-    );
+  if (data.growth_line) add('warning', data.growth_line);
   if (t.not_repeatable > 0)
     add(
       'warning',

@@ -187,7 +187,8 @@ function table_element(data, {layout, variants}) {
 const key_of = (data) =>
   'Dot and bold: with 95 % confidence better than all others of the column within a scenario; for values of driving only ' +
   `where all rows have the same success. Means are over ${data.observation}s. Brackets: 95 % interval ` +
-  'over them, omitted if all trials agree to the digits shown. A fraction: the number of trials in which the value is ' +
+  'over them, omitted if all trials agree to the digits shown. \u201c0 of 20: at most 14 %\u201d: none had any, and of all ' +
+  'so many may (rule of three, 95 %). A fraction: the number of trials in which the value is ' +
   'defined. Paired differences tests the differences between rows. Click a header to sort.';
 const PAPER_KEY =
   'Third line: the mean by the paper\u2019s rule, with the number of trials in parentheses: it excludes failed ' +

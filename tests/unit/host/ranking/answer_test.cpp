@@ -230,10 +230,14 @@ TEST_CASE("where entries are a product, each factor has its effect", "[ranking]"
   CHECK(std::string(answer.factors[0].factor) == "controller");
   CHECK(answer.factors[0].levels == Names{"good", "fine", "bad"});
   CHECK(answer.factors[0].effects[2].mean == Approx(-7.0 / 20.0 * 0.5));
-  CHECK_THAT(lines_of(trials)[0], Contains("Controllers, each with all 2 planners: in safe, good 0.09 [") &&
+  CHECK_THAT(lines_of(trials)[0], Contains("Controllers, each with both planners: in safe, good 0.09 [") &&
                                       Contains("bad 0.17 [") && Contains("] below the others."));
   CHECK(lines_of(trials)[1] == "Planners, each with all 3 controllers: the same safe in every trial.");
 
+  SECTION("two levels differ from each other") {
+    std::erase_if(trials, [](const TrialRecord& one) { return one.local_controller == "fine"; });
+    CHECK_THAT(lines_of(trials)[0], Contains("in safe, good 0.17 [") && Catch::Matchers::EndsWith("] above bad."));
+  }
   SECTION("and planners whose trials are the same are one entry") {
     for (TrialRecord& trial : trials) trial.plan_sha256 = "the same";
     CHECK(answer_of(trials).ranking.size() == 3);

@@ -85,6 +85,16 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
   CHECK(replay["end"]["reason"] == "time limit");
 }
 
+TEST_CASE("a robot failed by what the results say, not by its class at the end", "[report]") {
+  TrialRecord trial;
+  trial.events.resize(2);
+  trial.events[0].text = "robot 10 failed: no plan";
+  trial.events[1].text = "robot 0 failed: stood after hitting another robot";
+  const json replay = replay_of(dmrp::test::example_trace(20), trial);
+  CHECK(replay["robots"][0]["failure"] == "stood after hitting another robot");
+  CHECK_FALSE(replay["robots"][0].contains("culprit"));
+}
+
 TEST_CASE("a robot says how it is driven, if not by two wheels", "[report]") {
   const core::TraceBytes bytes = dmrp::test::example_trace(1);
   const core::TraceReader trace(bytes);
