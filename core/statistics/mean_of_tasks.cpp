@@ -16,52 +16,54 @@ namespace {
 // differs, and a division by nearly nothing would make the interval as wide as one likes.
 constexpr double least_error = 0.2;
 
-// It is by stratum, of observations with multiplicities.
-struct Moments {
-  double count = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
+// Of an observation's value from the mean.
+struct Deviation {
+  std::size_t observation = 0;
+  double value = 0.0;
 };
+using Strata = std::vector<std::vector<Deviation>>;
+
+Strata strata_of(std::span<const double> values, double center, const Resampling& resampling) {
+  Strata strata(resampling.strata());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isnan(values[i])) strata[resampling.stratum_of(i)].push_back({i, values[i] - center});
+  return strata;
+}
 
 struct MeanAndError {
   double mean = undefined;
   double error = undefined;
 };
 
-// The standard error of a mean over strata that are drawn within.
-MeanAndError mean_and_error(std::span<const Moments> strata) {
-  Moments all;
-  for (const Moments& one : strata) all = {all.count + one.count, all.sum + one.sum, 0.0};
+// Of values that each count `count_of(observation)` times: the mean, and its standard error over strata that are drawn
+// within.
+template <class CountOf>
+MeanAndError mean_and_error(const Strata& strata, const CountOf& count_of) {
+  double counts = 0.0;
+  double sums = 0.0;
   double variance = 0.0;
-  for (const Moments& one : strata) {
-    if (one.count < 2.0) continue;
-    const double scatter = std::max(0.0, one.squares - one.sum * one.sum / one.count);
-    variance += one.count * scatter / (one.count - 1.0);
+  for (const std::vector<Deviation>& stratum : strata) {
+    double count = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const auto& [observation, value] : stratum) {
+      const double own = count_of(observation);
+      count += own;
+      sum += own * value;
+      squares += own * value * value;
+    }
+    counts += count;
+    sums += sum;
+    if (count >= 2.0) variance += count * std::max(0.0, squares - sum * sum / count) / (count - 1.0);
   }
-  return {all.sum / all.count, std::sqrt(variance) / all.count};
-}
-
-// Values minus `center`, NaNs left out, each counted `counts[i]` times.
-template <class Counts>
-MeanAndError resampled(std::span<const double> values, double center, const Counts& counts,
-                       const Resampling& resampling, std::vector<Moments>& strata) {
-  std::fill(strata.begin(), strata.end(), Moments{});
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isnan(values[i])) continue;
-    const double value = values[i] - center;
-    const double count = counts(i);
-    Moments& own = strata[resampling.stratum_of(i)];
-    own = {own.count + count, own.sum + count * value, own.squares + count * value * value};
-  }
-  return mean_and_error(strata);
+  return {sums / counts, std::sqrt(variance) / counts};
 }
 
 // Of the mean of unbounded values: the bootstrap-t, not nearer to the mean than Student's interval at either end: with long
 // tails on both sides the bootstrap-t is too narrow, with one it is not, where Student's is. Below ten Student's alone.
 void add_interval(MeanOfTasks& result, std::span<const double> values, const Resampling& resampling) {
-  std::vector<Moments> strata(resampling.strata());
-  const MeanAndError observed = resampled(
-      values, result.mean, [](std::size_t) { return 1.0; }, resampling, strata);
+  const Strata strata = strata_of(values, result.mean, resampling);
+  const MeanAndError observed = mean_and_error(strata, [](std::size_t) { return 1.0; });
   if (!(observed.error > 0.0)) return;  // equal values show no spread
   const double t = result.mean / observed.error;
   const double student = student_quantile(result.n, significance / 2.0);
@@ -71,8 +73,7 @@ void add_interval(MeanOfTasks& result, std::span<const double> values, const Res
     std::vector<double> studentised;
     for (std::size_t i = 0; i < resampling.resamples(); ++i) {
       const auto counts = resampling.counts(i);
-      const MeanAndError drawn = resampled(
-          values, result.mean, [&](std::size_t k) { return static_cast<double>(counts[k]); }, resampling, strata);
+      const MeanAndError drawn = mean_and_error(strata, [&](std::size_t k) { return static_cast<double>(counts[k]); });
       studentised.push_back((drawn.mean - observed.mean) / std::fmax(drawn.error, least_error * observed.error));
     }
     const auto beyond = std::count_if(studentised.begin(), studentised.end(),
