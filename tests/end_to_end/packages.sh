@@ -11,8 +11,8 @@ cd "$scratch" || exit 1
 
 expect_status 0 "${cmake%cmake}cpack" --config "$build_dir/CPackConfig.cmake" -B "$scratch/made"
 mkdir debs root && mv made/*.deb debs
-[[ $(cd debs && echo *.deb) =~ ^dmrp-doc_.*_all.deb\ dmrp-host_.*\ dmrp-plugins_.*\ dmrp-sdk-dev_.*_all.deb$ ]] ||
-  fail "there should be four packages: $(ls debs)"
+[[ $(cd debs && echo *.deb) =~ ^dmrp-doc_.*_all.deb\ dmrp-host_.*\ dmrp-plugins_.*\ dmrp-sdk-dev_.*_all.deb\ python3-dmrp_.*_all.deb$ ]] ||
+  fail "there should be five packages: $(ls debs)"
 depends=$(dpkg-deb -f debs/dmrp-host_*.deb Depends)
 for library in libc6 libstdc++6 libfmt9 libsqlite3-0 libseccomp2 libssl3 libyaml-cpp0.7; do
   [[ $depends == *"$library "* ]] || fail "dmrp-host should depend on $library: $depends"
@@ -42,6 +42,14 @@ unset DMRP_SCENARIO_PATH DMRP_PLUGIN_PATH
 expect_status 0 ../root/usr/bin/dmrp-host ../root/usr/share/dmrp/examples/quickstart.toml
 grep -q "12 of 12 robots arrived" "$scratch/stdout" || fail "the quickstart says $(cat "$scratch/stdout")"
 grep -q "<title>" runs/quickstart/report.html || fail "the quickstart should have a report"
+
+if /usr/bin/python3 -c 'import pandas' 2>/dev/null; then
+  [[ $(dpkg-deb -f ../debs/python3-dmrp_*.deb Depends) == *dmrp-host*python3-pandas* ]] || fail "python3-dmrp depends on too little"
+  means='print(dmrp.load("runs/quickstart").summary(metrics=["success"])["mean"].tolist())'
+  PATH=$scratch/root/usr/bin:$PATH PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages \
+    expect_status 0 /usr/bin/python3 -c "import dmrp; $means"
+  [[ $(cat "$scratch/stdout") == "[1.0]" ]] || fail "python3-dmrp reads $(cat "$scratch/stdout")"
+fi
 
 for kind in planner controller pedestrian-model metric; do
   expect_status 0 ../root/usr/bin/dmrp-host new "$kind" --id org.example.mine "$kind"
