@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -10,6 +11,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+import notebook
 
 TREE = Path(__file__).resolve().parents[2]
 
@@ -41,3 +44,13 @@ def test_the_package_installs_into_an_environment(tmp_path: Path) -> None:
         check=True, capture_output=True, text=True, env=environment, cwd=tmp_path,
     )  # fmt: skip
     assert str(tmp_path / "venv") in found.stdout
+
+
+@pytest.mark.notebooks
+@pytest.mark.parametrize("file", sorted((TREE / "docs/notebooks").glob("*.ipynb")), ids=lambda file: file.stem)
+def test_a_notebook_has_the_outputs_that_it_gives(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    content = json.loads(file.read_text())
+    stored = [cell["outputs"] for cell in content["cells"] if cell["cell_type"] == "code"]
+    assert [notebook.texts_of(cell) for cell in notebook.outputs_of(content)] == [notebook.texts_of(cell) for cell in stored]
