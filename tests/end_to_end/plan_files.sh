@@ -90,6 +90,7 @@ else
   printf 'agent,t,x,y\n0,0,0,3\n0,6,6,3\n1,0,3,0\n1,9.5,3,5\n' >any.csv
 fi
 experiment any "$planner" 'file = "any.csv"' 'any_angle = true'
+experiment ordered "$planner" 'file = "any.csv"' 'any_angle = true'
 expect_status 0 "$host" any.toml --quiet --out any
 
 # --- what no planner may give is told at its row before the first trial
@@ -116,15 +117,15 @@ refused "^collides.csv:5:1: invalid plan: vertex conflict of robots 0 and 1 at s
 printf 'agent,t,x,y\n0,0,0,3\n0,6,6,3\n1,0,3,0\n1,5,3,5\n' >discs.csv
 experiment discs "$planner" 'file = "discs.csv"' 'any_angle = true'
 refused "^discs.csv:3:1: invalid plan: robots 0 and 1 come within " discs
-printf '\n[simulation]\nexecution = "ordered"\n' >>any.toml
-refused "'ordered' needs plans from cell to cell, which any.csv does not make" any
+printf '\n[simulation]\nexecution = "ordered"\n' >>ordered.toml
+refused "'ordered' needs plans from cell to cell, which any.csv does not make" ordered
 
 # --- files are never asked again
 
 experiment again "$planner" 'file = "cbs.csv"'
 printf '\n[simulation]\nreplan_period_s = 1.0\n' >>again.toml
 expect_status 0 "$host" again.toml --out again
-grep -q "^warning: again.toml:7:8: plans from a file are never made anew" stderr || fail "$(cat stderr)"
+grep -q "^warning: again.toml:8:8: plans from a file are never made anew" stderr || fail "$(cat stderr)"
 [[ $(values_by cbs again) == "$(values_by cbs both)" ]] || fail "the plan was made anew"
 printf 'replan_period_steps = 2\nreplan_window_steps = 2\n' >>again.toml
 sed -i '/replan_period_s /d' again.toml

@@ -11,6 +11,7 @@ import dmrp
 import numpy as np
 import pandas as pd
 import pytest
+from conftest import small_experiment
 from dmrp import formats, plans, trace
 
 
@@ -90,25 +91,28 @@ def test_plans_of_tasks_have_a_column(tmp_path: Path) -> None:
     assert (tmp_path / "plan.csv").read_text() == "task,agent,t,x,y\n0123456789abcdef,0,0,1,2\n0123456789abcdef,0,1,1,3\n"
 
 
-def test_plans_of_a_solver_are_driven(tmp_path: Path, run: dmrp.Run) -> None:
+def test_plans_of_a_solver_are_driven(tmp_path: Path) -> None:
     """From a run to its tasks, to plans, to a run with the same poses: CBS stands for the solver."""
+    drawn: dict[str, object] = {"scenario": [dmrp.use("mall", robots=2, tasks="drawn")], "trials": 2}
+    run = small_experiment(**drawn).run(tmp_path / "run", jobs=1)
     solved = {}
-    for number, row in run.trials.iterrows():
-        trace = run.trial(int(row["trial"])).trace
+    for _, row in run.trials.iterrows():
+        trace = run.trial(int(row["id"])).trace
         task = plans.task_of(trace)
         grid = trace.world["planning_grid"]
         paths = []
         for path in trace.plans[0]["paths"]:
-            x = np.rint((path["waypoints"]["x"] - grid["origin"]["x"]) / grid["resolution_m"] - 0.5).astype(int)
-            y = np.rint((path["waypoints"]["y"] - grid["origin"]["y"]) / grid["resolution_m"] - 0.5).astype(int)
+            x = np.rint((path["waypoints"]["x"] - grid["origin"][0]) / grid["resolution_m"] - 0.5).astype(int)
+            y = np.rint((path["waypoints"]["y"] - grid["origin"][1]) / grid["resolution_m"] - 0.5).astype(int)
             paths.append(list(zip(x.tolist(), (grid["height"] - 1 - y).tolist())))
         assert [path[0] for path in paths] == task.starts
         assert [[path[-1]] for path in paths] == task.goals
         assert all(task.free[y, x] for path in paths for x, y in path)
         solved[row["task"]] = paths
+    assert len(solved) == 2
     formats.write_plan(solved, tmp_path / "solver.csv")
     planner = [dmrp.use(file=tmp_path / "solver.csv")]
-    again = small_experiment(global_planner=planner).run(tmp_path / "again", jobs=1)
+    again = small_experiment(global_planner=planner, **drawn).run(tmp_path / "again", jobs=1)
     assert set(again.trials["global_planner"]) == {"solver"}
     for trial in range(len(run.trials)):
         assert again.trial(trial).trace.poses().equals(run.trial(trial).trace.poses())

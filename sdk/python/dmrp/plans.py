@@ -32,13 +32,12 @@ def task_of(trace: Trace) -> Task:
     free = grid["free"].reshape(grid["height"], grid["width"])[::-1] != 0
 
     def cell(pose: Any) -> tuple[int, int]:
-        x, y = (int((pose[axis] - grid["origin"][axis]) // grid["resolution_m"]) for axis in ("x", "y"))
+        x, y = (int((pose[axis] - grid["origin"][axis]) // grid["resolution_m"]) for axis in (0, 1))
         return x, grid["height"] - 1 - y
 
     robots = trace.world["robots"]
-    return Task(
-        free, [cell(robot["start"]) for robot in robots], [[cell(goal) for goal in robot["goals"]["pose"]] for robot in robots]
-    )
+    goals = [[cell(goal) for goal in robot["goals"]["pose"]] for robot in robots]
+    return Task(free, [cell(robot["start"]) for robot in robots], goals)
 
 
 _smart_place = re.compile(r"\(\s*(-?\d+)\s*,\s*(-?\d+)\s*,\s*(\d+)\s*\)->")
