@@ -117,6 +117,8 @@ class Worker {
 
   void serve() {
     for (const LibraryUse& library : experiment_.libraries) check_unchanged(library);
+    for (const PluginUse& planner : experiment_.global_planners)
+      if (planner.plans.is_given()) check_unchanged(planner.plans.all());
     sender_.send({{"type", "ready"}, {"digest", loaded_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
@@ -138,11 +140,14 @@ class Worker {
     int killed = 0;
   };
 
-  // Rows of two versions of a library would stand in one table.
+  // Rows of two versions of a library, or of a file of plans, would stand in one table.
   void check_unchanged(const LibraryUse& library) {
-    std::vector<std::string> files = library.objects;
-    files.push_back(library.file.string());
-    for (const std::string& file : files)
+    VisiblePaths files(library.objects.begin(), library.objects.end());
+    files.push_back(library.file);
+    check_unchanged(files);
+  }
+  void check_unchanged(const VisiblePaths& files) {
+    for (const std::string file : files)
       if (stamps_.try_emplace(file, stamp_of(file)).first->second != stamp_of(file))
         throw std::runtime_error(file + ": changed while it was being run");
   }
@@ -309,6 +314,7 @@ class Worker {
   void store_plan_of_file(Open& trial, std::uint32_t repetition) {
     PlansOfFiles& plans =
         plans_of_files_.try_emplace(trial.combination.global_planner, planner_of(trial).plans).first->second;
+    if (const auto file = planner_of(trial).plans.of(repetition); !file.empty()) check_unchanged(VisiblePaths{file});
     StagedProblem problem;
     stage_first_problem(experiment_, trial.world, problem);
     store(trial, plans.answer(repetition, trial.done.task, problem.c), {});
@@ -382,7 +388,7 @@ class Worker {
   int spool_ = -1;                                                   // of the trial that is measured
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // guests keep copies of them
   std::map<std::int32_t, PlansOfFiles> plans_of_files_;              // by planner
-  std::map<std::string, FileStamp> stamps_;                          // of libraries and what they need
+  std::map<std::string, FileStamp> stamps_;                          // of libraries and what they need, and of plans
   OneProcessor processor_;
   Watchdog watchdog_;
   std::int64_t trial_started_ns_ = 0;

@@ -80,15 +80,7 @@ grep -q "\"text\": \"empty.csv: holds no plan of task $task\"" empty/plans/*.jso
 
 # --- any angle: moving discs
 
-expect_status 0 "$host" plugins --json
-any=$(sqlite3 -batch :memory: "SELECT json_extract(plugin.value, '\$.id') FROM
-  json_each(CAST(readfile('stdout') AS TEXT)) AS library, json_each(library.value, '\$.plugins') AS plugin
-  WHERE json_extract(plugin.value, '\$.connectivity') = 'any' LIMIT 1")
-if [[ -n $any ]]; then
-  expect_status 0 "$host" plan --scenario crossing --planner "$any" --paths any.csv
-else
-  printf 'agent,t,x,y\n0,0,0,3\n0,6,6,3\n1,0,3,0\n1,9.5,3,5\n' >any.csv
-fi
+printf 'agent,t,x,y\n0,0,0,3\n0,6,6,3\n1,0,3,0\n1,9.5,3,5\n' >any.csv
 experiment any "$planner" 'file = "any.csv"' 'any_angle = true'
 experiment ordered "$planner" 'file = "any.csv"' 'any_angle = true'
 expect_status 0 "$host" any.toml --quiet --out any
@@ -156,3 +148,20 @@ grep -q "global_planner\[1\].file was " stderr || fail "$(cat stderr)"
 cp cbs.csv each/plan-000.csv
 expect_status 2 "$host" each.toml --quiet --resume --out each_run
 grep -q "global_planner\[0\].file was " stderr || fail "$(cat stderr)"
+
+# --- a file that is edited before it is read ends the run, which keeps what is finished
+
+mkdir many
+for repetition in {0..9}; do cp metres.csv many/$repetition.csv; done
+experiment many "$planner" 'file = "many/{repetition}.csv"'
+sed -i 's/^trials = 2/trials = 10/' many.toml
+"$host" many.toml --quiet --jobs 1 --out many_run 2>stderr &
+run=$!
+until compgen -G "many_run/plans/*.json" >/dev/null; do sleep 0.01; done
+echo >>many/9.csv
+status=0
+wait $run || status=$?
+[[ $status == 2 ]] || fail "exit status $status: $(cat stderr)"
+grep -q "many.toml: changed (it, or a file that it names) while it was being run" stderr || fail "$(cat stderr)"
+[[ $(query many_run "SELECT count(*) FROM trial WHERE repetition < 9 AND sim_time_s > 1") == 9 ]] ||
+  fail "$(query many_run "SELECT id, outcome FROM trial")"
