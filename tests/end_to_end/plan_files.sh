@@ -16,13 +16,16 @@ experiment() {
   } >"$1.toml"
 }
 planner='[[global_planner]]'
-# refused STATUS PATTERN EXPERIMENT: by validate and by a run, in one line, with nothing half-done
+# refused_once PATTERN ARGUMENT...
+refused_once() {
+  expect_status 2 "$host" "${@:2}"
+  [[ $(messages) == 1 ]] || fail "${*:2}: not one line: $(cat stderr)"
+  grep -Eq -- "$1" stderr || fail "${*:2}: '$(cat stderr)' does not match '$1'"
+}
+# refused PATTERN EXPERIMENT: by validate and by a run, in one line, with nothing half-done
 refused() {
-  for command in "validate $2.toml" "$2.toml --quiet --out $2"; do
-    expect_status 2 "$host" $command
-    [[ $(messages) == 1 ]] || fail "$2: not one line: $(cat stderr)"
-    grep -Eq -- "$1" stderr || fail "$2: '$(cat stderr)' does not match '$1'"
-  done
+  refused_once "$1" validate "$2.toml"
+  refused_once "$1" "$2.toml" --quiet --out "$2"
   [[ ! -e $2 ]] || fail "$2: a run directory was left"
 }
 # values_by PLANNER RUN: every value that no clock measured, and that is not the planner's own
@@ -152,7 +155,7 @@ grep -q "global_planner\[0\].file was " stderr || fail "$(cat stderr)"
 # --- a file that is edited before it is read ends the run, which keeps what is finished
 
 mkdir many
-for repetition in {0..9}; do cp metres.csv many/$repetition.csv; done
+for repetition in {0..9}; do cp metres.csv "many/$repetition.csv"; done
 experiment many "$planner" 'file = "many/{repetition}.csv"'
 sed -i 's/^trials = 2/trials = 10/' many.toml
 "$host" many.toml --quiet --jobs 1 --out many_run 2>stderr &
