@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "core/execution/replanning.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "core/execution/referee.hpp"
 
 namespace dmrp::core {
+
+bool can_replan(const SimulationSettings& settings) {
+  const ReplanSettings& replan = settings.replan;
+  const auto& steps = settings.recovery.steps;
+  return replan.period_ns > 0 || replan.period_steps > 0 || replan.stray_m > 0.0 || replan.stall_ns > 0 ||
+         !replan.fallback.empty() ||
+         (settings.recovery.retries > 0 && std::find(steps.begin(), steps.end(), RecoveryStep::replan) != steps.end());
+}
 
 ReplanMonitor::ReplanMonitor(const ReplanSettings& settings, std::size_t robot_count)
     : settings_(settings), robots_(robot_count) {}

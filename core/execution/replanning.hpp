@@ -12,6 +12,9 @@
 
 namespace dmrp::core {
 
+// Whether anything in these settings asks the planner again.
+bool can_replan(const SimulationSettings& settings);
+
 class ReplanMonitor {
  public:
   // The first call of the planner is at t = 0.

@@ -36,7 +36,7 @@ not in plugins/ come with dmrp-host.
 | --- | --- |
 | experiment.toml, effective.toml | the experiment with all values written out |
 | original.toml | the experiment as it was written, with its comments |
-| scenarios, parameters, plugins | the files that it names, as they were |
+| scenarios, parameters, plan_files, plugins | the files that it names, as they were |
 | manifest.json | program, machine, the SHA-256 of all files, and what the experiment means, key by key |
 | results.sqlite, trace_digests.txt | where it was run: its results, and fingerprints of its traces |
 | plans | where it was run: the plans that its trials were given |

@@ -41,6 +41,8 @@ BundleLayout::BundleLayout(const Experiment& experiment, const Manifest& manifes
     for (const PluginUse& use : *uses)
       for (const ParameterValue& value : use.parameters)
         if (value.type == DMRP_PARAM_PATH && is_file(value.text)) add_parameter(value.text);
+  for (const PluginUse& planner : experiment.global_planners)
+    if (planner.plans.is_given()) add_plans(planner.plans);
   for (const HashedFile& file : manifest.files)
     if (file.role == "parameter" && is_file(file.path) && sha256_of_file(file.path) == file.sha256)
       add_parameter(file.path);
@@ -70,6 +72,17 @@ void BundleLayout::add_parameter(const fs::path& file) {
   const fs::path place = free_place("parameters" / file.filename());
   copies_[place] = file;
   names_[file] = place.string();
+}
+
+void BundleLayout::add_plans(const PlanFiles& plans) {
+  const fs::path root = plans.name.parent_path();
+  fs::path& folder = plan_folders_[root];
+  if (folder.empty()) folder = free_place(fs::path("plan_files") / root.filename());
+  for (const fs::path& file : plans.all()) {
+    copies_[folder / file.filename()] = file;
+    names_[file] = (folder / file.filename()).string();
+  }
+  names_[plans.name] = (folder / plans.name.filename()).string();
 }
 
 void BundleLayout::add_library(const fs::path& file, bool copied) {

@@ -13,7 +13,7 @@
 namespace dmrp::host {
 
 // scenarios/ has scenario files with the files that they name, as they lie to each other; parameters/ has files of
-// parameters and files that parameters name; plugins/ has libraries, those in Python with the modules beside them. All are
+// parameters and files that parameters name; plan_files/ has files of plans; plugins/ has libraries, those in Python with the modules beside them. All are
 // copied as they are.
 class BundleLayout {
  public:
@@ -30,6 +30,7 @@ class BundleLayout {
  private:
   void add_scenario(const ScenarioVariant& variant);
   void add_parameter(const std::filesystem::path& file);
+  void add_plans(const PlanFiles& plans);
   void add_library(const std::filesystem::path& file, bool copied);
   void add_python(const LibraryUse& library);
   std::filesystem::path free_place(const std::filesystem::path& wanted);
@@ -38,6 +39,7 @@ class BundleLayout {
   std::map<std::filesystem::path, std::filesystem::path> copies_;
   std::map<std::filesystem::path, std::filesystem::path> scenario_folders_;  // of the bundle, for those of scenarios
   std::map<std::filesystem::path, std::filesystem::path> python_folders_;    // likewise, for those of Python files
+  std::map<std::filesystem::path, std::filesystem::path> plan_folders_;      // likewise, for those of plans
   std::set<std::filesystem::path> taken_;
 };
 

@@ -15,6 +15,7 @@
 #include "host/files/atomic_file.hpp"
 #include "host/files/sync_directory.hpp"
 #include "host/guests/probe.hpp"
+#include "host/plan/check_plan_files.hpp"
 #include "host/plan/check_planners.hpp"
 #include "host/process/box.hpp"
 #include "host/program/executable.hpp"
@@ -216,9 +217,12 @@ int run_command(const RunOptions& options) {
   if (!options.trust) check_strangers(fs::absolute(options.experiment).parent_path());
   const Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
   check_planners(experiment, options.experiment);
+  const std::vector<std::string> without_plan = check_plan_files(experiment);
   const bool is_silent = options.quiet || !options.progress.empty();
   if (!is_silent)
     for (const std::string& warning : experiment.warnings) warn(warning);
+  if (!is_silent)
+    for (const std::string& warning : without_plan) warn(warning);
   if (const std::string gaps = box::gaps(); !is_silent && !gaps.empty()) warn(gaps);
   if (!is_silent)
     for (const std::string& id : plugins_watched_for_memory(experiment))

@@ -5,6 +5,7 @@
 #include "host/commands/command_output.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/guests/probe.hpp"
+#include "host/plan/check_plan_files.hpp"
 #include "host/plan/check_planners.hpp"
 #include "host/program/executable.hpp"
 #include "host/ranking/answer.hpp"
@@ -44,7 +45,9 @@ std::string power_line(const Experiment& experiment) {
 int validate_command(const std::filesystem::path& file) {
   const Experiment experiment = load_experiment(file, 0, &probe_library);
   check_planners(experiment, file);
+  const std::vector<std::string> without_plan = check_plan_files(experiment);
   for (const std::string& warning : experiment.warnings) warn(warning);
+  for (const std::string& warning : without_plan) warn(warning);
   const std::size_t count = combinations(experiment).size();
   fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),
              plural(experiment.trials, "repetition"), count * experiment.trials, experiment.metrics.size());

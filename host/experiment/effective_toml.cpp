@@ -36,8 +36,10 @@ std::string name_anywhere(const std::filesystem::path& file, const std::string& 
 
 void write_uses(std::string& out, std::uint32_t kind, const std::vector<PluginUse>& uses, const FileName& name) {
   for (const PluginUse& use : uses) {
-    out += fmt::format("\n[[{}]]\nuse   = {}\nlabel = {}\n", kind_name(kind), toml_text(use.info.id),
-                       toml_text(use.label));
+    const std::string source =
+        use.plans.is_given() ? "file  = " + toml_text(name(use.plans.name)) : "use   = " + toml_text(use.info.id);
+    out += fmt::format("\n[[{}]]\n{}\nlabel = {}\n", kind_name(kind), source, toml_text(use.label));
+    if (use.plans.is_given() && use.info.connectivity == DMRP_CONNECTIVITY_ANY) out += "any_angle = true\n";
     if (use.control_latency_ns)
       out += fmt::format("control_latency_s = {}\n", toml_text(static_cast<double>(*use.control_latency_ns) / 1e9));
     if (use.bound != Bound::none) out += fmt::format("bound = \"{}\"\n", use.bound == Bound::lower ? "lower" : "upper");

@@ -23,6 +23,15 @@ std::string content_of(const ScenarioVariant& variant) {
   return out;
 }
 
+// One digest for all plans of a name with {repetition}: trials can grow as far as files were there from the start.
+std::string content_of(const PlanFiles& plans) {
+  if (!plans.is_one_each()) return sha256_of_file(plans.name);
+  std::string all;
+  for (const auto& [repetition, file] : plans.by_repetition)
+    all += fmt::format("{} {}\n", repetition, sha256_of_file(file));
+  return sha256_of_bytes(all);
+}
+
 // The files of an experiment, by content.
 class ContentNames {
  public:
@@ -30,6 +39,8 @@ class ContentNames {
     for (const LibraryUse& library : experiment.libraries) names_[library.file] = "";
     for (const ScenarioVariant& variant : experiment.scenarios)
       if (std::string& name = names_[variant.file]; name.empty()) name = content_of(variant);
+    for (const PluginUse& planner : experiment.global_planners)
+      if (planner.plans.is_given()) names_[planner.plans.name] = content_of(planner.plans);
   }
 
   std::string operator()(const fs::path& file) {
@@ -96,6 +107,7 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment) {
        {&experiment.global_planners, &experiment.local_controllers, &experiment.pedestrian_models, &experiment.metrics})
     for (std::size_t i = 0; i < uses->size(); ++i) {
       const PluginInfo& info = (*uses)[i].info;
+      if ((*uses)[i].plans.is_given()) continue;
       identity[fmt::format("{}[{}].version", kind_name(info.kind), i)] = toml_text(info.version);
     }
   for (const PluginUse& use : experiment.fallback_planners)

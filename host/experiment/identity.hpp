@@ -15,7 +15,7 @@ namespace dmrp::host {
 inline constexpr int behaviour = 6;
 
 // Each key with its value as TOML text: "simulation.step_s" -> "0.02", "local_controller[1].use" -> "\"dmrp...\"".
-// Scenarios, with the files that they name, and files that parameters name stand by SHA-256, plugins by id and version, and
+// Scenarios, with the files that they name, files that parameters name and files of plans stand by SHA-256, plugins by id and version, and
 // the environment variables that plugins have by their values (host/process/environment.hpp). Not in it: the name of the
 // experiment and the number of its trials, so that a run can grow; libraries; what plugins see beside their own.
 std::map<std::string, std::string> identity_of(const Experiment& experiment);

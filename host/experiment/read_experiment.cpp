@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/execution/replanning.hpp"
 #include "core/scene/settings.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/mistakes.hpp"
@@ -258,9 +259,24 @@ void check_windows(const TomlTable& root, const Experiment& experiment) {
   for (const PluginUse& planner : experiment.global_planners)
     if (!planner.info.has_flag(DMRP_FLAG_WINDOWED))
       for (const TomlTable& table : root.tables(kind_name(DMRP_KIND_GLOBAL_PLANNER)))
-        if (const TomlValue use = table.need("use"); use.text() == planner.info.id)
-          use.fail(fmt::format("{} cannot plan for a window, as 'replan_window_steps' asks (DMRP_FLAG_WINDOWED)",
-                               planner.info.id));
+        if (const auto use = naming(table, planner))
+          use->fail(fmt::format("{} cannot plan for a window, as 'replan_window_steps' asks (DMRP_FLAG_WINDOWED)",
+                                planner.info.id));
+}
+
+// Files do not plan again.
+void check_replanning(const TomlTable& root, Experiment& experiment) {
+  const auto replans = [&](const ScenarioVariant& variant) {
+    return core::can_replan(simulation_of(experiment, variant));
+  };
+  if (std::none_of(experiment.scenarios.begin(), experiment.scenarios.end(), replans)) return;
+  for (const PluginUse& planner : experiment.global_planners)
+    for (const TomlTable& table : root.tables(kind_name(DMRP_KIND_GLOBAL_PLANNER)))
+      if (const auto file = naming(table, planner); file && planner.plans.is_given())
+        experiment.warnings.push_back(fmt::format(
+            "{}: plans from a file are never made anew: [simulation] and [recovery] ask for that, and robots "
+            "with these plans do without",
+            file->place()));
 }
 
 // Plugins start processes in a namespace of their own.
@@ -387,6 +403,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
       has_settings && mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   if (has_worlds) mistakes.attempt([&] { check_number_of_trials(root, experiment); });
   if (has_worlds) mistakes.attempt([&] { check_windows(root, experiment); });
+  if (has_worlds) mistakes.attempt([&] { check_replanning(root, experiment); });
   if (has_worlds) mistakes.attempt([&] { read_fallback_planners(root, all_libraries, experiment); });
   if (experiment.metrics.empty() && all_libraries)
     mistakes.attempt([&] { use_every_metric(root.find_table("experiment")->need("plugins"), experiment); });

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <string_view>
 #include <utility>
 
 #include "host/errors/mistakes.hpp"
@@ -97,10 +99,88 @@ std::string default_label(const PluginUse& use) {
   return set.empty() ? use.info.name : fmt::format("{} ({})", use.info.name, set);
 }
 
+// The key that says what is used.
+TomlValue source_of(const TomlTable& table) {
+  const auto file = table.title() == "[[global_planner]]" ? table.find("file") : std::nullopt;
+  return file ? *file : table.need("use");
+}
+
+// The number in the place of {repetition}, with leading zeros or without.
+std::optional<std::uint32_t> repetition_of(const std::string& name, const std::string& before,
+                                           const std::string& behind) {
+  if (name.size() <= before.size() + behind.size() || !name.starts_with(before) || !name.ends_with(behind)) return {};
+  std::uint32_t number = 0;
+  const char* const end = name.data() + name.size() - behind.size();
+  const auto read = std::from_chars(name.data() + before.size(), end, number);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+PlanFiles find_plan_files(const TomlValue& value, const std::filesystem::path& base) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path written = fs::absolute(base) / value.line();
+  PlanFiles plans{fs::canonical(written.parent_path(), error) / written.filename()};
+  if (!plans.is_one_each()) {
+    if (error || !fs::is_regular_file(plans.name, error))
+      value.fail(fmt::format("'{}': there is no such file beside the experiment file", value.text()));
+    return plans;
+  }
+  const std::string name = plans.name.filename().string();
+  const std::size_t at = name.find(PlanFiles::placeholder);
+  const std::string behind = name.substr(at + std::string_view(PlanFiles::placeholder).size());
+  for (fs::directory_iterator entry(plans.name.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto repetition = repetition_of(entry->path().filename(), name.substr(0, at), behind);
+    if (!repetition) continue;
+    if (const auto [known, is_new] = plans.by_repetition.try_emplace(*repetition, entry->path()); !is_new)
+      value.fail(fmt::format("'{}': two files are those of repetition {}", value.text(), *repetition));
+  }
+  if (plans.by_repetition.empty())
+    value.fail(fmt::format("'{}': there is no such file with a number for {}", value.text(), PlanFiles::placeholder));
+  return plans;
+}
+
+// "cbs" of cbs.csv, of cbs_{repetition}.csv, and of cbs/{repetition}.csv.
+std::string label_of(const PlanFiles& plans) {
+  std::string label = plans.name.stem().string();
+  if (const std::size_t at = label.find(PlanFiles::placeholder); at != std::string::npos) {
+    label.erase(at, std::string_view(PlanFiles::placeholder).size());
+    while (!label.empty() && std::string_view(" ._-").find(label.back()) != std::string_view::npos) label.pop_back();
+  }
+  return label.empty() ? plans.name.parent_path().filename().string() : label;
+}
+
+// `any_angle`: as the table says.
+PluginUse read_plan_use(const TomlTable& table, const TomlValue& file, bool any_angle,
+                        const std::filesystem::path& base) {
+  PluginUse made;
+  Mistakes mistakes;
+  for (const char* const key : {"use", "params_file", "params", "sweep"})
+    if (const auto other = table.find(key))
+      mistakes.attempt(
+          [&] { other->fail_at_key(fmt::format("'{}' is of a plugin: beside 'file' there is none", key)); });
+  mistakes.attempt([&] { made.plans = find_plan_files(file, base); });
+  mistakes.end();
+  made.info.id = file.text();
+  made.info.kind = DMRP_KIND_GLOBAL_PLANNER;
+  made.info.name = label_of(made.plans);
+  made.info.connectivity = any_angle ? DMRP_CONNECTIVITY_ANY : DMRP_CONNECTIVITY_8;
+  return made;
+}
+
+// Only a planner's use has it.
+bool read_any_angle(const TomlTable& table) {
+  const auto value = table.find("any_angle");
+  if (!value) return false;
+  const bool any_angle = value->boolean();
+  if (!table.find("file")) value->fail_at_key("'any_angle' is of plans from a 'file': a planner says it itself");
+  return any_angle;
+}
+
 // Tables and results name a use by its label, and a value by its name.
 void check_names(const TomlTable& table, std::uint32_t kind, const std::vector<PluginUse>& others,
                  const PluginUse& made) {
-  const TomlValue use = table.need("use");
+  const TomlValue use = source_of(table);
   if (label_taken(others, made.label))
     table.find("label").value_or(use).fail(
         fmt::format("two of [[{}]] are called '{}': give one another 'label'", kind_name(kind), made.label));
@@ -142,8 +222,17 @@ class NamedBounds {
 
 }  // namespace
 
+std::optional<TomlValue> naming(const TomlTable& table, const PluginUse& use) {
+  const auto name = table.find(use.plans.is_given() ? "file" : "use");
+  return name && name->text() == use.info.id ? name : std::nullopt;
+}
+
 std::vector<TomlKey> plugin_use_keys(std::uint32_t kind) {
   std::vector<TomlKey> keys = {{"use"}, {"label"}, {"params_file"}, {"params"}, {"sweep"}};
+  if (kind == DMRP_KIND_GLOBAL_PLANNER) {
+    keys.push_back({"file"});
+    keys.push_back({"any_angle", boolean_text});
+  }
   std::int64_t unused = 0;
   if (kind == DMRP_KIND_LOCAL_CONTROLLER) {
     keys.push_back({"control_latency_s", latency("control_latency_s", unused).range});
@@ -159,15 +248,22 @@ void read_plugin_uses(const TomlTable& root, std::uint32_t kind, bool all_librar
     Mistakes mistakes;
     PluginUse common;
     std::string name;
+    bool any_angle = false;
     std::vector<ParameterVariant> variants;
     mistakes.attempt([&] { table.allow_only_keys(plugin_use_keys(kind)); });
     mistakes.attempt([&] {
       if (const auto label = table.find("label")) name = label->line();
     });
+    mistakes.attempt([&] { any_angle = read_any_angle(table); });
     mistakes.attempt([&] { common.control_latency_ns = read_control_latency(table); });
     mistakes.attempt([&] { common.bound = read_bound(table); });
     mistakes.attempt([&] {
-      const TomlValue use = table.need("use");
+      const TomlValue use = source_of(table);
+      if (use.key() == "file") {
+        common = read_plan_use(table, use, any_angle, experiment.file.parent_path());
+        variants.resize(1);
+        return;
+      }
       const auto found = find_plugin(use, use.text(), kind, all_libraries, experiment);
       if (!found) return;
       check_extensions(use, *found->info);

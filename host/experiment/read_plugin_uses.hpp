@@ -14,6 +14,9 @@ namespace dmrp::host {
 // The keys of the tables of one kind.
 std::vector<TomlKey> plugin_use_keys(std::uint32_t kind);
 
+// Where the table names the plugin, or the file of plans, of this use; none: the table is of another one.
+std::optional<TomlValue> naming(const TomlTable& table, const PluginUse& use);
+
 // Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment: one use for each variant of a sweep.
 // `all_libraries`: every library has been read; if not, plugins that are in none of them are passed over. If one was left
 // out, so are they. Throws InputError.

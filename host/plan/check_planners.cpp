@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/step_overlaps.hpp"
+#include "host/experiment/read_plugin_uses.hpp"
 #include "host/plan/planner_process.hpp"
 #include "host/toml/toml_document.hpp"
 
@@ -41,11 +42,12 @@ void check_planners(const Experiment& experiment, const std::filesystem::path& s
   for (const ScenarioVariant& variant : experiment.scenarios) {
     if (!has_unequal_robots(experiment, variant)) continue;
     for (const PluginUse& planner : experiment.global_planners) {
+      if (planner.plans.is_given()) continue;
       const std::string refusal = refusal_of(experiment, variant, planner);
       if (refusal.empty()) continue;
       for (const TomlTable& table : document.root().tables(kind_name(DMRP_KIND_GLOBAL_PLANNER)))
-        if (const TomlValue use = table.need("use"); use.text() == planner.info.id)
-          use.fail(fmt::format("{} cannot plan for scenario '{}': {}", planner.info.id, variant.label, refusal));
+        if (const auto use = naming(table, planner))
+          use->fail(fmt::format("{} cannot plan for scenario '{}': {}", planner.info.id, variant.label, refusal));
     }
   }
 }

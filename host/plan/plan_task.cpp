@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 namespace dmrp::host {
 
 namespace {
@@ -66,10 +64,7 @@ std::unique_ptr<PlanTask> scenario_task(const Experiment& experiment) {
   }
   const VariantWorld& variant = *task->variant;
   task->geometry = variant.geometry;
-  const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, variant.routes,
-                          experiment.seed);
-  if (!stage_problem(variant, world, nullptr, nanoseconds(experiment.limits.planner_time_s), task->problem))
-    throw std::logic_error("robots of a checked scenario do not stand on distinct cells");
+  stage_first_problem(experiment, variant, task->problem);
   return task;
 }
 

@@ -153,6 +153,12 @@ dmrp_vec2 position(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   return {from.x + share * (next->x - from.x), from.y + share * (next->y - from.y)};
 }
 
+std::size_t waypoints_until(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
+  const auto behind = std::upper_bound(path.begin(), path.end(), t_ns,
+                                       [](std::int64_t t, const dmrp_waypoint& w) { return t < w.t_ns; });
+  return static_cast<std::size_t>(behind - path.begin());
+}
+
 // The least distance of two points that move linearly over one interval.
 double least_distance(dmrp_vec2 a0, dmrp_vec2 a1, dmrp_vec2 b0, dmrp_vec2 b1) {
   const dmrp_vec2 offset{a0.x - b0.x, a0.y - b0.y};
@@ -332,18 +338,18 @@ PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cell
   Positions odd(cells, lower, upper);
   std::vector<Pair> pairs;
   Pair first_pair{std::numeric_limits<Robot>::max(), 0};
-  const auto note = [&](Pair pair, const auto& describe) {
+  const auto note = [&](Pair pair, std::size_t step, const auto& describe) {
     ++found.count;
     if (pair >= first_pair) return;
     first_pair = pair;
-    found.first = describe();
+    found = {found.count, describe(), pair.first, std::min(step, cells[pair.first].size() - 1)};
   };
 
   even.fill(0);
   for (Robot robot = 0; robot < cells.size(); ++robot)
     even.visit(cells[robot][0], [&](Robot other) {
       if (other > robot)
-        note({robot, other}, [&] { return fmt::format("robots {} and {} share a start", robot, other); });
+        note({robot, other}, 0, [&] { return fmt::format("robots {} and {} share a start", robot, other); });
     });
   for (std::size_t step = 0; step + 1 < makespan; ++step) {
     const Positions& now = step % 2 == 0 ? even : odd;
@@ -359,7 +365,7 @@ PlanConflicts find_step_conflicts(const std::vector<std::vector<PlanCell>>& cell
           overlaps.overlap(pair.first, at(a, step), at(a, step + 1), pair.second, at(b, step), at(b, step + 1)))
         kind = "footprint";
       if (kind)
-        note(pair, [&] {
+        note(pair, step + 1, [&] {
           return fmt::format("{} conflict of robots {} and {} at step {}", kind, pair.first, pair.second, step + 1);
         });
     }
@@ -386,6 +392,8 @@ PlanConflicts find_disc_conflicts(const PlannedPaths& paths, const std::vector<d
             if (!(distance_m < clear_m) || found.count++ > 0) return;
             found.first = fmt::format("robots {} and {} come within {:.3f} m of each other at {:.2f} s", robots.first,
                                       robots.second, distance_m, static_cast<double>(from) * 1e-9);
+            found.robot = robots.first;
+            found.waypoint = std::min(waypoints_until(a, from), a.size() - 1);
           });
   }
   return found;

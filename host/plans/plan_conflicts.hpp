@@ -19,7 +19,9 @@ using PlanCell = toolkit::Cell;
 
 struct PlanConflicts {
   std::uint32_t count = 0;
-  std::string first;  // of the pair of robots with the lowest numbers, its earliest; in one line
+  std::string first;         // of the pair of robots with the lowest numbers, its earliest; in one line
+  std::size_t robot = 0;     // the first robot of this pair
+  std::size_t waypoint = 0;  // where it is then, or heads for
 };
 
 // Of paths on the grid, one cell for each step: vertex, swap, crossing and passing conflicts, and footprints that

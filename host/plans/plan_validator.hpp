@@ -20,6 +20,8 @@ struct PlanVerdict {
   std::string error;            // the first breach of the contract, in one line; empty if there is none
   std::uint32_t conflicts = 0;  // between robots: vertex, swap, crossing, passing, footprint; any angle: discs
   std::string first_conflict;   // in one line
+  std::size_t robot = 0;        // of the error, or of the first conflict
+  std::size_t waypoint = 0;     // likewise, of this robot
 };
 
 // Checks structure (start, strictly growing times, goals in order, rest at the last unless the path is partial), moves (free cells, edge mask,

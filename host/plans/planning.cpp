@@ -10,6 +10,7 @@
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/snap.hpp>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "host/errors/escaped_text.hpp"
 #include "host/plugins/calls/host_callback.hpp"
@@ -249,6 +250,13 @@ bool stage_problem(const VariantWorld& variant, const core::World& world, const 
     c.in_force_stride = in_force->plan.path_stride;
   }
   return true;
+}
+
+void stage_first_problem(const Experiment& experiment, const VariantWorld& variant, StagedProblem& problem) {
+  const core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, variant.routes,
+                          experiment.seed);
+  if (!stage_problem(variant, world, nullptr, nanoseconds(experiment.limits.planner_time_s), problem))
+    throw std::logic_error("robots of a checked scenario do not stand on distinct cells");
 }
 
 void cut_to_window(const dmrp_planning_problem& problem, PlannerAnswer& answer) {

@@ -93,6 +93,9 @@ struct InForce {
 bool stage_problem(const VariantWorld& variant, const core::World& world, const InForce* in_force,
                    std::int64_t time_budget_ns, StagedProblem& problem);
 
+// States the first problem of a trial of a checked scenario.
+void stage_first_problem(const Experiment& experiment, const VariantWorld& variant, StagedProblem& problem);
+
 // Calls plan() once; `step`: the physics steps since the trial's start. Throws PluginFault.
 PlannerAnswer call_planner(Instance& planner, const dmrp_planning_problem& problem, std::int64_t step);
 

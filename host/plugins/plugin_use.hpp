@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,16 +36,41 @@ struct LibraryUse {
 // A controller that an experiment names as a bound of what is possible (host/ranking/bounds.hpp).
 enum class Bound { none, lower, upper };
 
+// Where the plans of a planner's use are read, in place of a plugin that makes them.
+struct PlanFiles {
+  static constexpr const char* placeholder = "{repetition}";
+
+  std::filesystem::path name;                                      // absolute; its last part may have the placeholder
+  std::map<std::uint32_t, std::filesystem::path> by_repetition{};  // of a name with it: those that exist
+
+  bool is_given() const { return !name.empty(); }
+  bool is_one_each() const { return name.filename().string().find(placeholder) != std::string::npos; }
+
+  // Empty if there is none.
+  std::filesystem::path of(std::uint32_t repetition) const {
+    if (!is_one_each()) return name;
+    const auto found = by_repetition.find(repetition);
+    return found == by_repetition.end() ? std::filesystem::path() : found->second;
+  }
+  VisiblePaths all() const {
+    if (!is_one_each()) return {name};
+    VisiblePaths files;
+    for (const auto& [repetition, file] : by_repetition) files.push_back(file);
+    return files;
+  }
+};
+
 // A plugin as the experiment uses it.
 struct PluginUse {
   std::uint32_t library = 0;  // index into Experiment::libraries
-  PluginInfo info;
-  std::string label;                                 // shown in results; unique among the uses of its kind
+  PluginInfo info;            // of plans from files: the name as written in place of an id, and the connectivity
+  std::string label;          // shown in results; unique among the uses of its kind
   std::vector<ParameterValue> parameters;            // complete, in the declared order; paths absolute
   std::filesystem::path parameter_file{};            // the source of some of them; absolute, empty if there is none
   std::optional<std::int64_t> control_latency_ns{};  // of a controller: in place of [simulation]'s
   Bound bound = Bound::none;                         // of a controller
   std::vector<SweptValue> swept{};                   // parameters that `sweep` lists
+  PlanFiles plans{};                                 // of a planner: then there is no plugin, nor a library
 };
 
 }  // namespace dmrp::host

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "core/trace/trace_encoder.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -15,6 +16,7 @@
 #include "host/guests/fork_server.hpp"
 #include "host/guests/inside/log_line.hpp"
 #include "host/guests/probe.hpp"
+#include "host/plans/plan_file.hpp"
 #include "host/process/box.hpp"
 #include "host/program/exit_status.hpp"
 #include "host/trial/ask_metric.hpp"
@@ -78,13 +80,25 @@ class DebuggedTrial {
       bytes.insert(bytes.end(), record.begin(), record.end());
     });
     guests_.begin_trial({logged_->number, logged_->step_ns});
-    const TrialEnding ending = run_trial({experiment_, combination_, world(), seed_}, guests_, trace);
+    const std::optional<PlannerAnswer> plan = plan_of_file();
+    const TrialEnding ending =
+        run_trial({experiment_, combination_, world(), seed_, {plan ? &*plan : nullptr, {}}}, guests_, trace);
     core::TraceReader reader(bytes);
     fmt::print("{} after {:.2f} s\n", reader.reason(), ending.sim_time_s);
     const auto robots = static_cast<std::uint32_t>(world().scenario.robots.size());
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i)
       print_values(ask_metric(guests_, experiment_.metrics[i], i, {bytes, &world(), robots, seed_},
                               nanoseconds(experiment_.limits.step_time_s)));
+  }
+
+  std::optional<PlannerAnswer> plan_of_file() const {
+    if (combination_.global_planner < 0) return std::nullopt;
+    const PlanFiles& files = experiment_.global_planners[static_cast<std::size_t>(combination_.global_planner)].plans;
+    if (!files.is_given()) return std::nullopt;
+    StagedProblem problem;
+    stage_first_problem(experiment_, world(), problem);
+    const std::uint32_t repetition = trial_id(logged_->number, combinations_.size()).repetition;
+    return PlansOfFiles(files).answer(repetition, task_hash(world().scenario), problem.c);
   }
 
   const VariantWorld& world() const { return own_ ? *own_ : shared_; }

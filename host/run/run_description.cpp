@@ -106,6 +106,11 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
       for (const ParameterValue& value : use.parameters)
         if (value.type == DMRP_PARAM_PATH && !value.text.empty()) parameters.insert(value.text);
     }
+  std::set<fs::path> plans;
+  for (const PluginUse& planner : experiment.global_planners)
+    if (planner.plans.is_given())
+      for (const fs::path& file : planner.plans.all()) plans.insert(file);
+  for (const fs::path& file : plans) manifest.files.push_back(hashed_file("plan", file));
   for (const fs::path& file : parameters) manifest.files.push_back(hashed_file("parameter", file));
   return manifest;
 }

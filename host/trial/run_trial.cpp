@@ -31,27 +31,27 @@ core::SimulationSettings settings_of(const Trial& trial) {
   return settings;
 }
 
-bool can_replan(const core::SimulationSettings& settings) {
-  const core::ReplanSettings& replan = settings.replan;
-  const auto& steps = settings.recovery.steps;
-  return replan.period_ns > 0 || replan.stray_m > 0.0 || replan.stall_ns > 0 || !replan.fallback.empty() ||
-         (settings.recovery.retries > 0 &&
-          std::find(steps.begin(), steps.end(), core::RecoveryStep::replan) != steps.end());
+// Files do not plan.
+bool can_replan(const Trial& trial) {
+  const std::int32_t planner = trial.combination.global_planner;
+  const bool from_file =
+      planner >= 0 && trial.experiment.global_planners[static_cast<std::size_t>(planner)].plans.is_given();
+  return !from_file && core::can_replan(trial.variant.simulation);
 }
 
 class Run {
  public:
   Run(const Trial& trial, Guests& guests, core::TraceEncoder& trace)
       : settings_(settings_of(trial)),
+        can_replan_(can_replan(trial)),
         world_(trial.variant.scenario, trial.variant.types, settings_, trial.variant.geometry, trial.variant.routes,
                trial.seed),
         plugins_(guests, trial.experiment, trial.combination, trial.variant, world_, trial.seed, trace,
-                 {can_replan(settings_) ? nullptr : trial.first_plan.given, trial.first_plan.on_made}),
+                 {can_replan_ ? nullptr : trial.first_plan.given, trial.first_plan.on_made}),
         trace_(trace),
         dispatcher_(trial.variant, world_),
         navigator_(navigator_of(trial.variant)),
-        referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan(settings_)},
-                 trial.seed),
+        referee_(world_, *trial.variant.planning_grids, {settings_.oscillation_fails, can_replan_}, trial.seed),
         replanning_(settings_.replan, world_.robots().size()),
         recoveries_(world_, robots_with_costmap()) {}
 
@@ -101,9 +101,9 @@ class Run {
   bool control_due() const { return world_.t_ns() % settings_.control_period_ns == 0; }
 
   bool replan_due() {
-    if (!has_plan() || pending_plan_) return false;
+    if (!can_replan_ || !has_plan() || pending_plan_) return false;
     const bool due = replanning_.due(world_.t_ns(), world_.robots(), referee_.gained_m(), dispatcher_.progress());
-    const bool waits = can_replan(settings_) && referee_.wants_plan();
+    const bool waits = referee_.wants_plan();
     return std::exchange(recovery_asks_for_plan_, false) || due || waits;
   }
 
@@ -300,6 +300,7 @@ class Run {
   }
 
   const core::SimulationSettings settings_;
+  const bool can_replan_;
   core::World world_;
   TrialPlugins plugins_;
   core::TraceEncoder& trace_;

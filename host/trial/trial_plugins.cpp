@@ -195,19 +195,24 @@ Plan TrialPlugins::plan(const InForce* in_force, std::int64_t step) {
     return planner_.instance ? ask_planner(planner_, problem, step) : *first_plan_.given;
   };
   Plan plan = make(source, planner_use_->info, in_force, step);
+  if (!planner_use_->plans.is_given()) note_plan(plan);
   if (!in_force && planner_.instance && first_plan_.on_made) first_plan_.on_made(plan);
   return plan;
 }
 
 Plan TrialPlugins::plan_by_fallback(const InForce* in_force, std::int64_t step) {
   const auto source = [&](const dmrp_planning_problem& problem) { return ask_planner(fallback_, problem, step); };
-  return make(source, fallback_use_->info, in_force, step);
+  Plan plan = make(source, fallback_use_->info, in_force, step);
+  note_plan(plan);
+  return plan;
 }
 
 Plan TrialPlugins::make(const PlanSource& source, const PluginInfo& info, const InForce* in_force, std::int64_t step) {
-  Plan plan = make_plan(source, info, variant_, world_, in_force, nanoseconds(experiment_.limits.planner_time_s), step);
+  return make_plan(source, info, variant_, world_, in_force, nanoseconds(experiment_.limits.planner_time_s), step);
+}
+
+void TrialPlugins::note_plan(const Plan& plan) {
   if (plan.answered) note_call(DMRP_CALL_PLAN, DMRP_ALL_ROBOTS, {plan.status, plan.planning_ns});
-  return plan;
 }
 
 PlannerAnswer TrialPlugins::ask_planner(const InstanceHandle& planner, const dmrp_planning_problem& problem,

@@ -27,7 +27,7 @@
 
 namespace dmrp::host {
 
-// The first plan of a trial, if it is there already: then the planner is not asked for it.
+// The first plan of a trial, if it is there already, as one from a file is: then the planner is not asked for it.
 struct FirstPlan {
   const PlannerAnswer* given = nullptr;
   std::function<void(const PlannerAnswer&)> on_made;  // called with a valid plan, or none, of the planner; may be empty
@@ -120,6 +120,7 @@ class TrialPlugins {
   void control_all(std::span<const DrivenRobot> robots, std::int64_t step);
   const dmrp_path_update* update_of(const DrivenRobot& robot, Arena& arena);
   void take_command(const DrivenRobot& robot, const ControlAnswer& answer, std::int64_t step);
+  void note_plan(const Plan& plan);
   void note_call(std::uint32_t kind, std::uint32_t robot, const CallAnswer& answer);
 
   core::Lidar& lidar_of(std::uint32_t robot);

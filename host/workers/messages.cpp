@@ -52,6 +52,7 @@ void to_json(nlohmann::json& json, const StoredPlan& plan) {
   json["processor_ns"] = plan.answer.processor_ns;
   json["statistics"] = plan.answer.statistics;
   json["paths_sha256"] = plan.paths_sha256;
+  if (!plan.answer.text.empty()) json["text"] = plan.answer.text;
 }
 void from_json(const nlohmann::json& json, StoredPlan& plan) {
   json.at("timing").get_to(plan.timing);
@@ -65,6 +66,7 @@ void from_json(const nlohmann::json& json, StoredPlan& plan) {
   plan.answer.processor_ns = whole_number<std::int64_t>(json.at("processor_ns"));
   json.at("statistics").get_to(plan.answer.statistics);
   json.at("paths_sha256").get_to(plan.paths_sha256);
+  plan.answer.text = json.value("text", "");
 }
 
 void send_in_pieces(const MetricResult& result, const std::function<void(const MetricResult& piece)>& send) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +11,7 @@
 #include "host/files/atomic_file.hpp"
 #include "host/files/read_file.hpp"
 #include "host/files/sha256.hpp"
-#include "host/files/text_lines.hpp"
+#include "host/plans/plan_file.hpp"
 #include "host/results/csv.hpp"
 #include "host/workers/messages.hpp"
 
@@ -21,55 +20,6 @@ namespace dmrp::host {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view header = "robot,t_ns,x,y,theta,goal_index";
-constexpr std::uintmax_t most_csv_bytes = std::uintmax_t{1} << 34;
-
-class RowReader {
- public:
-  RowReader(const TextLines& lines, std::size_t number) : lines_(lines), number_(number), rest_(lines.line(number)) {}
-
-  template <class Number>
-  Number next(const char* column) {
-    Number value{};
-    const std::string_view text = take();
-    const char* const end = text.data() + text.size();
-    if (const auto read = std::from_chars(text.data(), end, value); read.ec != std::errc() || read.ptr != end)
-      fail(fmt::format("{} must be a {}, not '{}'", column, std::is_integral_v<Number> ? "whole number" : "number",
-                       text));
-    return value;
-  }
-
-  double heading() {
-    if (rest_.starts_with(',')) return take(), core::free_heading;
-    return next<double>("theta");
-  }
-
-  void end() {
-    if (fields_ != std::count(header.begin(), header.end(), ',') + 1 || more_)
-      fail(fmt::format("a row has the values {}", header));
-  }
-
-  [[noreturn]] void fail(const std::string& text) const { lines_.fail(number_, column_, text); }
-
- private:
-  std::string_view take() {
-    column_ = static_cast<std::size_t>(rest_.data() - lines_.line(number_).data()) + 1;
-    const std::size_t end = std::min(rest_.find(','), rest_.size());
-    const std::string_view text = rest_.substr(0, end);
-    more_ = end < rest_.size();
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++fields_;
-    return text;
-  }
-
-  const TextLines& lines_;
-  std::size_t number_;
-  std::string_view rest_;
-  std::size_t column_ = 1;
-  bool more_ = false;
-  std::ptrdiff_t fields_ = 0;
-};
 
 bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof(a)) == 0;
@@ -101,26 +51,7 @@ std::string plan_csv(const PlannedPaths& paths) {
 }
 
 PlannedPaths read_plan_csv(const fs::path& file) {
-  const std::string shown_path = shown(file);
-  const TextLines lines(read_file(file, shown_path, most_csv_bytes), shown_path);
-  if (lines.line(1) != header) lines.fail(1, 1, fmt::format("the first line must be '{}'", header));
-  PlannedPaths paths;
-  for (std::size_t number = 2; number <= lines.count(); ++number) {
-    RowReader row(lines, number);
-    const auto robot = row.next<std::size_t>("robot");
-    if (robot != paths.size() && robot + 1 != paths.size())
-      row.fail(fmt::format("robot must be {}, or the next one, not {}", paths.empty() ? 0 : paths.size() - 1, robot));
-    if (robot == paths.size()) paths.emplace_back();
-    dmrp_waypoint w{};
-    w.t_ns = row.next<std::int64_t>("t_ns");
-    w.x = row.next<double>("x");
-    w.y = row.next<double>("y");
-    w.theta = row.heading();
-    w.goal_index = row.next<std::uint32_t>("goal_index");
-    row.end();
-    paths.back().push_back(w);
-  }
-  return paths;
+  return PlanFile(file).stored_paths();
 }
 
 bool same_plan(const PlannerAnswer& a, const PlannerAnswer& b) {

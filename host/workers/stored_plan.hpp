@@ -2,7 +2,7 @@
 // stored_plan.hpp: the first plan of all trials that have scenario variant, repetition and planner in common. Two files of
 // the run directory hold it:
 //
-//   plans/NAME.csv    robot,t_ns,x,y,theta,goal_index: the paths, in metres. An empty theta: any heading
+//   plans/NAME.csv    the paths, in metres (host/plans/plan_file.hpp)
 //   plans/NAME.json   the planner's call and statistics, or its fault. It is written last, by the supervisor
 #pragma once
 

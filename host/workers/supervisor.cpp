@@ -251,7 +251,7 @@ class Supervisor {
   void read_start(Slot& slot, const std::string& type, const nlohmann::json& message) {
     if (type == "error") throw_error(message);
     if (message.at("digest").get<std::string>() != digest_)
-      throw InputError(experiment_.file.string() + ": changed (it, a scenario or a plugin) while it was being run");
+      throw InputError(experiment_.file.string() + ": changed (it, or a file that it names) while it was being run");
     slot.ready = true;
     failed_starts_ = 0;
   }

@@ -21,6 +21,7 @@
 #include "host/errors/machine_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/guests/guest_process.hpp"
+#include "host/plans/plan_file.hpp"
 #include "host/process/line_channel.hpp"
 #include "host/process/one_processor.hpp"
 #include "host/process/orphans.hpp"
@@ -116,6 +117,8 @@ class Worker {
 
   void serve() {
     for (const LibraryUse& library : experiment_.libraries) check_unchanged(library);
+    for (const PluginUse& planner : experiment_.global_planners)
+      if (planner.plans.is_given()) check_unchanged(planner.plans.all());
     sender_.send({{"type", "ready"}, {"digest", loaded_digest(experiment_)}});
     while (const auto message = channel_.receive()) {
       const auto job = message->get<Job>();
@@ -137,11 +140,14 @@ class Worker {
     int killed = 0;
   };
 
-  // Rows of two versions of a library would stand in one table.
+  // Rows of two versions of a library, or of a file of plans, would stand in one table.
   void check_unchanged(const LibraryUse& library) {
-    std::vector<std::string> files = library.objects;
-    files.push_back(library.file.string());
-    for (const std::string& file : files)
+    VisiblePaths files(library.objects.begin(), library.objects.end());
+    files.push_back(library.file);
+    check_unchanged(files);
+  }
+  void check_unchanged(const VisiblePaths& files) {
+    for (const std::string file : files)
       if (stamps_.try_emplace(file, stamp_of(file)).first->second != stamp_of(file))
         throw std::runtime_error(file + ": changed while it was being run");
   }
@@ -192,6 +198,7 @@ class Worker {
     Open trial = {job, combination, own ? *own : shared, trial_seed(experiment_, job.trial)};
     trial.done.task = task_hash(trial.world.scenario);
     if (!job.plan.empty() && job.new_plan.empty()) trial.plan = plans_.read(job.plan);
+    if (!job.new_plan.empty() && planner_of(trial).plans.is_given()) store_plan_of_file(trial, id.repetition);
     if (trial.plan) trial.done.timing = trial.plan->timing;
     while (!attempt(trial)) {
     }
@@ -284,8 +291,7 @@ class Worker {
   // As stored, or to be stored. A trial is as repeatable as the plan that it gets.
   FirstPlan first_plan_of(Open& trial) {
     if (trial.job.plan.empty()) return {};
-    const std::string& planner =
-        experiment_.global_planners[static_cast<std::size_t>(trial.combination.global_planner)].info.id;
+    const std::string& planner = planner_of(trial).info.id;
     return {trial.plan ? &trial.plan->answer : nullptr, [&, planner](const PlannerAnswer& made) {
               if (!trial.plan) return store(trial, planner, made);
               trial.done.timing.clear();
@@ -294,9 +300,27 @@ class Worker {
             }};
   }
 
+  // Of a trial that has a planner.
+  const PluginUse& planner_of(const Open& trial) const {
+    return experiment_.global_planners[static_cast<std::size_t>(trial.combination.global_planner)];
+  }
+
   void store(Open& trial, const std::string& planner, const PlannerAnswer& made) {
     std::vector<TimingReason> timing = guests_.timing();
     std::erase_if(timing, [&](const TimingReason& reason) { return reason.plugin != planner; });
+    store(trial, made, std::move(timing));
+  }
+
+  void store_plan_of_file(Open& trial, std::uint32_t repetition) {
+    PlansOfFiles& plans =
+        plans_of_files_.try_emplace(trial.combination.global_planner, planner_of(trial).plans).first->second;
+    if (const auto file = planner_of(trial).plans.of(repetition); !file.empty()) check_unchanged(VisiblePaths{file});
+    StagedProblem problem;
+    stage_first_problem(experiment_, trial.world, problem);
+    store(trial, plans.answer(repetition, trial.done.task, problem.c), {});
+  }
+
+  void store(Open& trial, const PlannerAnswer& made, std::vector<TimingReason> timing) {
     write_text(trial.job.new_plan, plan_csv(made.paths));
     trial.plan = StoredPlan{made, std::move(timing)};
     sender_.send(typed("planned", *trial.plan));
@@ -363,7 +387,8 @@ class Worker {
   const GuestLimits limits_;
   int spool_ = -1;                                                   // of the trial that is measured
   std::map<std::uint32_t, std::unique_ptr<VariantWorld>> variants_;  // guests keep copies of them
-  std::map<std::string, FileStamp> stamps_;                          // of libraries and what they need
+  std::map<std::int32_t, PlansOfFiles> plans_of_files_;              // by planner
+  std::map<std::string, FileStamp> stamps_;                          // of libraries and what they need, and of plans
   OneProcessor processor_;
   Watchdog watchdog_;
   std::int64_t trial_started_ns_ = 0;

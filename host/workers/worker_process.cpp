@@ -44,7 +44,7 @@ nlohmann::json setup_of(const Experiment& experiment) {
   std::set<std::string> added;
   for (const auto* uses : plugin_lists(experiment))
     for (const PluginUse& use : *uses)
-      if (added.insert(use.info.id).second)
+      if (!use.plans.is_given() && added.insert(use.info.id).second)
         libraries[experiment.libraries[use.library].file.string()]["plugins"].push_back(use.info);
   return {{"libraries", libraries}};
 }

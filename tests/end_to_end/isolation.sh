@@ -49,7 +49,7 @@ cp "$(dirname "$two")/libgain_core.so" "$scratch/rebuilt/new" && mv "$scratch/re
 status=0
 wait $host_process || status=$?
 ((status == 2)) || fail "exit status $status, not 2"
-grep -q "changed (it, a scenario or a plugin) while it was being run" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+grep -q "changed (it, or a file that it names) while it was being run" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 
 # a listed library that no trial uses is loaded by no trial
 experiment alone "\"$one\"" dmrp.controller.pure_pursuit

@@ -21,7 +21,7 @@ def test_the_samples_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyP
     pytest.importorskip("matplotlib")
     monkeypatch.chdir(tmp_path)
     samples = re.findall(r"^```python\n(.*?)^```", (TREE / "docs/python.md").read_text(), re.M | re.S)
-    assert len(samples) == 5
+    assert len(samples) == 6
     names: dict[str, object] = {}
     for sample in samples:
         exec(sample, names)

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 from pathlib import Path
 
 import dmrp
+import numpy as np
 import pandas as pd
 import pytest
+from conftest import small_experiment
 from dmrp import formats, plans, trace
 
 
@@ -81,3 +84,55 @@ def test_tracker_moves_from_the_starts(tmp_path: Path) -> None:
     with pytest.raises(dmrp.InputError, match="none of u, d, l, r, w"):
         (tmp_path / "solution.txt").write_text("x\n")
         plans.read_tracker(tmp_path / "solution.txt", starts)
+
+
+def test_plans_of_tasks_have_a_column(tmp_path: Path) -> None:
+    formats.write_plan({"0123456789abcdef": [[(1, 2), (1, 3)]]}, tmp_path / "plan.csv")
+    assert (tmp_path / "plan.csv").read_text() == "task,agent,t,x,y\n0123456789abcdef,0,0,1,2\n0123456789abcdef,0,1,1,3\n"
+
+
+def test_plans_of_a_solver_are_driven(tmp_path: Path) -> None:
+    """From a run to its tasks, to plans, to a run with the same poses: CBS stands for the solver."""
+    drawn: dict[str, object] = {"scenario": [dmrp.use("mall", robots=2, tasks="drawn")], "trials": 2}
+    run = small_experiment(**drawn).run(tmp_path / "run", jobs=1)
+    solved = {}
+    for _, row in run.trials.iterrows():
+        trace = run.trial(int(row["id"])).trace
+        task = plans.task_of(trace)
+        grid = trace.world["planning_grid"]
+        paths = []
+        for path in trace.plans[0]["paths"]:
+            x = np.rint((path["waypoints"]["x"] - grid["origin"][0]) / grid["resolution_m"] - 0.5).astype(int)
+            y = np.rint((path["waypoints"]["y"] - grid["origin"][1]) / grid["resolution_m"] - 0.5).astype(int)
+            paths.append(list(zip(x.tolist(), (grid["height"] - 1 - y).tolist())))
+        assert [path[0] for path in paths] == task.starts
+        assert [[path[-1]] for path in paths] == task.goals
+        assert all(task.free[y, x] for path in paths for x, y in path)
+        solved[row["task"]] = paths
+    assert len(solved) == 2
+    formats.write_plan(solved, tmp_path / "solver.csv")
+    planner = [dmrp.use(file=tmp_path / "solver.csv")]
+    again = small_experiment(global_planner=planner, **drawn).run(tmp_path / "again", jobs=1)
+    assert set(again.trials["global_planner"]) == {"solver"}
+    for trial in range(len(run.trials)):
+        assert again.trial(trial).trace.poses().equals(run.trial(trial).trace.poses())
+
+
+def test_plans_of_smart_and_of_the_tracker_are_driven(tmp_path: Path) -> None:
+    (tmp_path / "open.map").write_text("type octile\nheight 6\nwidth 8\nmap\n" + "........\n" * 6)
+    (tmp_path / "open.scen").write_text("version 1\n0\topen.map\t8\t6\t1\t1\t3\t1\t2\n0\topen.map\t8\t6\t1\t4\t2\t4\t1\n")
+    (tmp_path / "hall").mkdir()
+    (tmp_path / "hall" / "scenario.toml").write_text(
+        '[scenario]\nname = "hall"\ntitle = "Hall"\ndescription = "an open map"\n'
+        '[map]\nfile = "../open.map"\n[robots]\nscen = "../open.scen"\ncount = 2\n'
+    )
+    (tmp_path / "smart.txt").write_text("Agent 0:(1,1,0)->(2,1,1)->(3,1,2)->\nAgent 1:(1,4,0)->(2,4,1)->\n")
+    (tmp_path / "tracker.txt").write_text("rr\nr\n")
+    smart = plans.read_smart(tmp_path / "smart.txt")
+    tracker = plans.read_tracker(tmp_path / "tracker.txt", plans.starts_of(tmp_path / "open.scen", 2))
+    assert smart == tracker
+    formats.write_plan(smart, tmp_path / "plan.csv")
+    hall = [dmrp.use(os.fspath(tmp_path / "hall" / "scenario.toml"))]
+    planner = [dmrp.use(file=tmp_path / "plan.csv")]
+    made = small_experiment(scenario=hall, global_planner=planner, trials=1).run(tmp_path / "run", jobs=1)
+    assert made.trials["outcome"].tolist() == ["succeeded"]

@@ -19,9 +19,11 @@ if TYPE_CHECKING:
 LIBRARIES = ("libdmrp_planners.so", "libdmrp_controllers.so", "libdmrp_pedestrians.so", "libdmrp_metrics.so")
 
 
-def use(name: str, **keys: Any) -> dict[str, Any]:
-    """An entry of a list of an experiment: `use = name` and the keys that TOML has for it."""
-    return {"use": name, **keys}
+def use(name: str | None = None, **keys: Any) -> dict[str, Any]:
+    """An entry of a list of an experiment: `use = name` and the keys that TOML has for it.
+
+    Without a name, plans that are read in place of a planner: use(file="plans.csv")."""
+    return keys if name is None else {"use": name, **keys}
 
 
 class Experiment:

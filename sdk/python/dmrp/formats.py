@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import os
 import sqlite3
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -133,9 +133,17 @@ def read_recording(file: str | os.PathLike[str]) -> pd.DataFrame:
     return pd.read_csv(file, float_precision="round_trip")
 
 
-def write_plan(paths: Iterable[Iterable[tuple[int, int]]], file: str | os.PathLike[str]) -> None:
-    """Paths in cells, for each agent (x, y) at step 0, 1, ..., y from the top, as the CSV agent,t,x,y."""
+Paths = Iterable[Iterable[tuple[int, int]]]
+
+
+def write_plan(paths: Paths | Mapping[str, Paths], file: str | os.PathLike[str]) -> None:
+    """Paths in cells, for each agent (x, y) at step 0, 1, ..., y from the top, as the CSV agent,t,x,y.
+
+    With a mapping of tasks (the column `task` of Run.trials) to paths the CSV has a column `task`, too."""
+    of_tasks = paths if isinstance(paths, Mapping) else {"": paths}
     with open(file, "w", encoding="ascii") as out:
-        out.write("agent,t,x,y\n")
-        for agent, path in enumerate(paths):
-            out.writelines(f"{agent},{step},{x},{y}\n" for step, (x, y) in enumerate(path))
+        out.write(f"{'task,' if of_tasks is paths else ''}agent,t,x,y\n")
+        for task, of_task in of_tasks.items():
+            start = f"{task}," if of_tasks is paths else ""
+            for agent, path in enumerate(of_task):
+                out.writelines(f"{start}{agent},{step},{x},{y}\n" for step, (x, y) in enumerate(path))

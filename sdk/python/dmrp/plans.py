@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plans of other solvers as paths in cells, which formats.write_plan() writes."""
+"""Tasks for other solvers in cells, and their plans as paths in cells, which formats.write_plan() writes."""
 
 from __future__ import annotations
 
@@ -7,10 +7,38 @@ import os
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from .host import InputError
+from .trace import Trace
 
 Cells = list[tuple[int, int]]  # (x, y) at step 0, 1, ..., y from the top
+
+class Task(NamedTuple):
+    """What a solver plans for, in cells (x, y), y from the top.
+
+    free     (rows, columns) bool: a robot may stand there; goals of all robots, in their order"""
+
+    free: np.ndarray[Any, np.dtype[np.bool_]]
+    starts: list[tuple[int, int]]
+    goals: list[Cells]
+
+
+def task_of(trace: Trace) -> Task:
+    """The task of a trial's robots on its planning grid."""
+    grid = trace.world["planning_grid"]
+    free = grid["free"].reshape(grid["height"], grid["width"])[::-1] != 0
+
+    def cell(pose: Any) -> tuple[int, int]:
+        x, y = (int((pose[axis] - grid["origin"][axis]) // grid["resolution_m"]) for axis in (0, 1))
+        return x, grid["height"] - 1 - y
+
+    robots = trace.world["robots"]
+    goals = [[cell(goal) for goal in robot["goals"]["pose"]] for robot in robots]
+    return Task(free, [cell(robot["start"]) for robot in robots], goals)
+
 
 _smart_place = re.compile(r"\(\s*(-?\d+)\s*,\s*(-?\d+)\s*,\s*(\d+)\s*\)->")
 _moves = {"u": (0, 1), "d": (0, -1), "l": (-1, 0), "r": (1, 0), "w": (0, 0)}

@@ -363,6 +363,51 @@ TEST_CASE("effective.toml reads back as the same experiment, from anywhere") {
     CHECK(again.scenarios[i].label == original.scenarios[i].label);
 }
 
+TEST_CASE("plans from files are known by what they hold, wherever they lie") {
+  const ExperimentFolder folder;
+  const std::string planner = "[[global_planner]]\nuse = \"test.planner\"\nparams = { weight = 1.5 }\n";
+  const std::string text = with(experiment_text, planner,
+                                "[[global_planner]]\nfile = \"cbs.csv\"\n"
+                                "[[global_planner]]\nfile = \"sets/lacam_{repetition}.csv\"\nany_angle = true\n"
+                                "[[global_planner]]\nfile = \"sets/{repetition}.csv\"\nlabel = \"theirs\"\n"
+                                "[[global_planner]]\nfile = \"sets/{repetition}.txt\"\n");
+  for (const char* file :
+       {"cbs.csv", "sets/lacam_0.csv", "sets/lacam_2.csv", "sets/lacam_x.csv", "sets/007.csv", "sets/1.txt"})
+    write_file(file, file);
+  const Experiment e = load(text);
+  CHECK(labels_of(e.global_planners) == std::vector<std::string>{"cbs", "lacam", "theirs", "sets"});
+  const auto name = [](const std::filesystem::path& file) { return file.filename().string(); };
+  CHECK(name(e.global_planners[0].plans.of(5)) == "cbs.csv");
+  CHECK(name(e.global_planners[1].plans.of(2)) == "lacam_2.csv");
+  CHECK(e.global_planners[1].plans.of(1).empty());
+  CHECK(e.global_planners[1].plans.all().size() == 2);
+  CHECK(name(e.global_planners[2].plans.of(7)) == "007.csv");
+  CHECK(e.global_planners[0].info.connectivity == DMRP_CONNECTIVITY_8);
+  CHECK(e.global_planners[1].info.connectivity == DMRP_CONNECTIVITY_ANY);
+
+  write_file("elsewhere/effective.toml", effective_toml(e));
+  const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
+  CHECK(identity_of(again) == identity_of(e));
+  CHECK(effective_toml(again) == effective_toml(e));
+  CHECK(identity_of(e).at("global_planner[0].file").size() == 66);
+  CHECK_FALSE(identity_of(e).contains("global_planner[0].version"));
+  const std::string digest = identity_digest(e);
+  const char* const edited = GENERATE("cbs.csv", "sets/lacam_2.csv", "sets/lacam_1.csv");
+  write_file(edited, "other");
+  CHECK(identity_digest(load(text)) != digest);
+  write_file("sets/7.csv", "a second one");
+  CHECK_THROWS_WITH(load(text), Catch::Matchers::Contains("two files are those of repetition 7"));
+}
+
+TEST_CASE("plans from files are never made anew, which is told where something asks for that") {
+  const ExperimentFolder folder;
+  const std::string text = std::string(experiment_text) + "[[global_planner]]\nfile = \"table.csv\"\n";
+  CHECK(load(text).warnings.empty());
+  const auto warnings = load(text + "[simulation]\nreplan_stall_s = 5\n").warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].starts_with("experiment.toml:20:8: plans from a file are never made anew"));
+}
+
 TEST_CASE("an experiment is the same wherever its files lie, and whatever its name and number of trials") {
   const ExperimentFolder folder;
   const Experiment here = load(full_experiment());

@@ -162,6 +162,20 @@ TEST_CASE("each robot's moves are judged on its own grid") {
   CHECK(error_of(c) == "robot 1, waypoint 0 (10.5, 22.5) is not on a free cell");
 }
 
+TEST_CASE("a verdict tells the waypoint of the first mistake, or conflict") {
+  Case jump({path({{0, 0}, {1, 0}}), path({{0, 2}, {1, 2}, {3, 2}})});
+  PlanVerdict verdict = jump.verdict(8);
+  CHECK((verdict.robot == 1 && verdict.waypoint == 2));
+  Case meet({path({{5, 3}}), path({{0, 0}, {1, 0}, {2, 0}, {2, 0}}), path({{2, 2}, {2, 1}, {2, 0}})});
+  verdict = meet.verdict(4);
+  CHECK((verdict.robot == 1 && verdict.waypoint == 2));
+  verdict = meet.verdict(DMRP_CONNECTIVITY_ANY, [](auto, auto, double) { return true; });
+  CHECK((verdict.robot == 1 && verdict.waypoint == 2));
+  Case late({path({{0, 0}, {1, 0}, {2, 0}, {3, 0}}), path({{3, 0}})});  // rests in the way
+  verdict = late.verdict(4);
+  CHECK((verdict.robot == 0 && verdict.waypoint == 3));
+}
+
 TEST_CASE("a good plan has no error and no conflict") {
   Case c({path({{0, 0}, {1, 0}, {1, 1}, {1, 1}, {2, 1}}), path({{0, 3}, {1, 3}}), path({{5, 0}})});
   const PlanVerdict verdict = c.verdict(4);

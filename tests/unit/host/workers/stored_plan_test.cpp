@@ -55,6 +55,7 @@ TEST_CASE("a mistake in a plan is named by line and column") {
   const std::string header = "robot,t_ns,x,y,theta,goal_index\n";
   CHECK_THAT(mistake("agent,t,x,y\n"),
              Contains("plan.csv:1:1: the first line must be 'robot,t_ns,x,y,theta,goal_index'"));
+  CHECK_THAT(mistake("task," + header), Contains("plan.csv:1:1: the first line must be 'robot,"));
   CHECK_THAT(mistake(header + "0,0,1,2,,0\n0,late,1,2,,0\n"),
              Contains(":3:3: t_ns must be a whole number, not 'late'"));
   CHECK_THAT(mistake(header + "1,0,1,2,,0\n"), Contains(":2:1: robot must be 0"));
@@ -68,8 +69,13 @@ TEST_CASE("a stored plan keeps the planner's call and statistics, or its fault")
   const StoredPlans plans(folder / "run");
   CHECK(plans.names().empty());
   StoredPlan made;
-  made.answer = {
-      DMRP_TIMEOUT, 12, 34, "", example, {}, {{"cost", 0.1}, {"bound", std::numeric_limits<double>::infinity()}}};
+  made.answer = {DMRP_TIMEOUT,
+                 12,
+                 34,
+                 "because",
+                 example,
+                 {},
+                 {{"cost", 0.1}, {"bound", std::numeric_limits<double>::infinity()}}};
   made.timing = {{"org.x", "plan() was stopped by its time budget"}};
   std::filesystem::create_directories(plans.csv_file("one").parent_path());
   write(plans.csv_file("one"), plan_csv(example));
@@ -77,6 +83,7 @@ TEST_CASE("a stored plan keeps the planner's call and statistics, or its fault")
   const StoredPlan read = plans.read("one");
   CHECK(same_plan(read.answer, made.answer));
   CHECK(read.answer.planning_ns == 12);
+  CHECK(read.answer.text == "because");
   CHECK(read.answer.processor_ns == 34);
   REQUIRE(read.answer.statistics.size() == 2);
   CHECK(read.answer.statistics[0].value == 0.1);
