@@ -184,6 +184,7 @@ void PlanFile::fail(const std::string& task, std::size_t robot, std::size_t wayp
 PlannerAnswer PlansOfFiles::answer(std::uint32_t repetition, const std::string& task,
                                    const dmrp_planning_problem& problem) {
   PlannerAnswer answer;
+  answer.processor_ns = -1;  // nobody planned
   const fs::path path = files_.of(repetition);
   if (path.empty()) {
     answer.text = fmt::format("{}: there is no file of repetition {}", shown(files_.name), repetition);

@@ -51,8 +51,10 @@ done
 [[ $(query both "SELECT count(*) FROM trial WHERE global_planner = 'cbs' AND sim_time_s > 1") == 2 ]] ||
   fail "the plan should be driven"
 # a file calls no planner
-[[ $(query both "SELECT count(*) FROM value JOIN trial ON trial.id = trial_id WHERE metric = 'plan_call_mean' AND
-  global_planner = 'cbs' AND value.value IS NOT NULL") == 0 ]] || fail "reading a file takes no planning time"
+[[ $(query both "SELECT count(*) FROM value JOIN trial ON trial.id = trial_id WHERE metric IN ('plan_call_mean', 'planning_time')
+  AND global_planner = 'cbs' AND value.value IS NOT NULL") == 0 ]] || fail "reading a file takes no planning time"
+
+expect_status 0 "$host" validate "$here/../../examples/solver_plans.toml"
 
 # --- a stored plan, which is in metres, is one that can be read; with a column for tasks
 
