@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The collision-free speed model, as published: Tordeux, Chraibi, Seyfried, Traffic and Granular Flow '15 (Springer 2016).
-Walls push as neighbours do. The built-in model of this name adds what keeps crowds from blocking each other."""
+Walls push as neighbours do. People who block each other take turns, as in the built-in model of this name."""
 
 import numpy as np
 
@@ -8,6 +8,7 @@ import dmrp.plugin as dp
 
 CELL_M = 0.2  # of the grids that people find their way by
 NEGLIGIBLE = 1e-4  # a push, relative to the desired direction
+BLOCKED, MEMORY_S, SHUFFLING = 0.03, 5.0, 0.3  # right of way: of the desired speed, s, m/s
 
 
 class CollisionFreeSpeed(dp.PedestrianModel):
@@ -21,8 +22,10 @@ class CollisionFreeSpeed(dp.PedestrianModel):
     range_m: float = dp.number(0.1, low=0.001, high=0.5, unit="m", help="gap at which it has fallen to 1/e")
     wall_strength: float = dp.number(5.0, low=0.0, help="push of a wall in contact")
     wall_range_m: float = dp.number(0.02, low=0.001, high=0.5, unit="m", help="gap at which it has fallen to 1/e")
+    right_of_way: bool = dp.boolean(True, help="who is blocked ignores people ahead with farther to go; false: as published")
 
     def start(self, world, seed):
+        self.progress = {}  # the mean speed along the desired direction, by id
         self.walls = np.array(world.segments)
         self.ways = Ways(world)
 
@@ -46,8 +49,11 @@ class CollisionFreeSpeed(dp.PedestrianModel):
         gap = np.maximum(distance - reach, 0.0)
 
         # the direction: equations 1 and 4
-        pushes = apart * (-self.strength * np.exp(-gap / self.range_m) / distance)[:, None]
-        wish = self.ways.directions(people)
+        way = self.ways.directions(people)
+        is_ignored = self.ignored(people, i, j, apart, way, dt_s)
+        influence = np.where(is_ignored, 0.0, self.strength * np.exp(-gap / self.range_m))
+        pushes = -apart * (influence / distance)[:, None]
+        wish = way.copy()
         for axis in (0, 1):
             wish[:, axis] += np.bincount(i, pushes[:, axis], count)
         away, wall_m = from_walls(place, self.walls)
@@ -61,8 +67,25 @@ class CollisionFreeSpeed(dp.PedestrianModel):
         in_the_way = (ahead >= 0.0) & (aside <= reach)
         to_target = people["target"] - place
         speed = np.minimum(people["desired_speed"], np.hypot(to_target[:, 0], to_target[:, 1]) / dt_s)
-        np.minimum.at(speed, i[in_the_way], gap[in_the_way] / max(self.time_gap, dt_s))
+        permitted = gap / max(self.time_gap, dt_s)
+        is_forward = (wish * way).sum(axis=1) > 0.0
+        permitted[is_ignored & is_forward[i]] = np.maximum(permitted, SHUFFLING)[is_ignored & is_forward[i]]
+        np.minimum.at(speed, i[in_the_way], permitted[in_the_way])
         return wish * speed[:, None]
+
+    def ignored(self, people, i, j, apart, way, dt_s):
+        """Of each pair, whether the person is blocked and the body is somebody ahead who has farther to go."""
+        ids, ahead_speed = people["id"].tolist(), (people["velocity"] * way).sum(axis=1)
+        mean = np.array([self.progress.get(id, speed) for id, speed in zip(ids, people["desired_speed"].tolist())])
+        mean += (ahead_speed - mean) * min(dt_s / MEMORY_S, 1.0)
+        self.progress = dict(zip(ids, mean.tolist()))
+        is_blocked = self.right_of_way & (mean < BLOCKED * people["desired_speed"])
+        to_target = people["target"] - people["position"]
+        rank = np.empty(len(people), int)
+        rank[np.lexsort((people["id"], np.hypot(to_target[:, 0], to_target[:, 1])))] = np.arange(len(people))
+        is_person = j < len(people)
+        comes_first = rank[i] < rank[np.where(is_person, j, i)]
+        return is_blocked[i] & is_person & comes_first & ((apart * way[i]).sum(axis=1) > 0.0)
 
 
 def from_walls(points, walls):
