@@ -25,6 +25,11 @@ expect_status 0 "$host" one.toml --quiet --jobs 2 --out second
 grep -q '"python policy.py": ".*Python 3.*numpy' first/manifest.json || fail "the manifest should name the versions"
 grep -q '"role": "python interpreter"' first/manifest.json || fail "the manifest should name the interpreter"
 
+# the other example
+cp "$source_dir"/examples/python_pedestrians/* .
+expect_status 0 "$host" python_pedestrians.toml --quiet --trials 1 --out people
+[[ $(query people "SELECT count(*) FROM trial WHERE outcome <> 'fault'") == 2 ]] || fail "the model in Python should run"
+
 # one experiment with the plugins of this file, in the smallest world
 experiment() {
   printf '[experiment]\nname = "python"\nseed = 7\ntrials = %s\nplugins = ["%s", "libdmrp_planners.so", "libdmrp_pedestrians.so",

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -28,22 +29,27 @@ def test_the_samples_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert {"completion_time.pdf", "trial.sqlite", "obsmat.txt"} <= {file.name for file in tmp_path.iterdir()}
 
 
-def test_the_package_installs_into_an_environment(tmp_path: Path) -> None:
+def test_the_package_installs_and_measures_without_the_host(tmp_path: Path, trace_file: Path) -> None:
     pytest.importorskip("setuptools")
     pytest.importorskip("wheel")
     pytest.importorskip("pip")  # the system's: one of its own takes an environment four seconds
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    source = tmp_path / "python"
-    subprocess.run(["cp", "-r", TREE / "sdk/python", source], check=True)  # setuptools writes beside its sources
+    hidden = ("PYTHONPATH", "DMRP_ROOT")
+    environment = {name: value for name, value in os.environ.items() if name not in hidden} | {"PATH": "/usr/bin:/bin"}
+    source = tmp_path / "checkout/sdk/python"
+    copied = ["cp", "-r", "--parents", "sdk/python", "sdk/include", "tests/abi", tmp_path / "checkout"]
+    (tmp_path / "checkout").mkdir()
+    subprocess.run(copied, check=True, cwd=TREE)  # setuptools writes beside its sources
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", tmp_path / "venv"], check=True)
     python = tmp_path / "venv/bin/python"
     install = [python, "-m", "pip", "install", "-q", "--no-build-isolation", "--no-index", "--no-deps", source]
     subprocess.run(install, check=True, env=environment)
+    shutil.rmtree(tmp_path / "checkout")
+    shutil.copy(TREE / "tests/python/metrics.py", tmp_path)
+    program = f"import dmrp.trace, metrics; print(dmrp.__file__, dmrp.trace.read({str(trace_file)!r}).measure(metrics.Sto()))"
     found = subprocess.run(
-        [python, "-c", "import dmrp; print(dmrp.__file__)"],
-        check=True, capture_output=True, text=True, env=environment, cwd=tmp_path,
-    )  # fmt: skip
-    assert str(tmp_path / "venv") in found.stdout
+        [python, "-c", program], check=True, capture_output=True, text=True, env=environment, cwd=tmp_path
+    )
+    assert str(tmp_path / "venv") in found.stdout and "own_sto" in found.stdout
 
 
 @pytest.mark.notebooks

@@ -25,16 +25,18 @@ _SCALARS: dict[str, tuple[Any, str]] = {
 _POINTER_DTYPE = "<u8"
 
 
-
 def _layout_file() -> str:
-    """Beside this module where dmrp-host starts it; elsewhere that of DMRP_ROOT, or of the dmrp-host in PATH."""
-    roots = [os.environ.get("DMRP_ROOT"), os.path.join(os.path.dirname(shutil.which("dmrp-host") or "."), "..")]
-    files = [os.path.join(os.path.dirname(__file__), "abi.json")]
+    """Beside this module where it is installed or dmrp-host starts it; of a source tree, that of DMRP_ROOT, of the tree's
+    build, or of the dmrp-host in PATH."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    roots = [os.environ.get("DMRP_ROOT"), os.path.join(here, "..", "..", "..", "build", "release")]
+    roots += [os.path.join(os.path.dirname(shutil.which("dmrp-host") or "."), "..")]
+    files = [os.path.join(here, "abi.json")]
     files += [os.path.join(root, "share", "dmrp", "abi", "dmrp-abi.json") for root in roots if root]
     for file in files:
         if os.path.exists(file):
             return file
-    raise ImportError("dmrp.plugin needs dmrp's layout file: set DMRP_ROOT, or have dmrp-host in PATH")
+    raise ImportError("dmrp.plugin needs dmrp's layout file: install the package, set DMRP_ROOT, or have dmrp-host in PATH")
 
 
 with open(_layout_file(), encoding="utf-8") as _file:

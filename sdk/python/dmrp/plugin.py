@@ -45,6 +45,10 @@ class Parameter:
         self.kind, self.default, self.unit, self.help = kind, default, unit, help
         self.low, self.high, self.choices = float(low), float(high), list(choices)
 
+    def __get__(self, instance: object, owner: type) -> Any:
+        """The default, in an object to which no experiment has given a value."""
+        return self if instance is None else self.default
+
 
 def _checked(default: Any, kinds: Any, function: str, what: str) -> Any:
     if not isinstance(default, kinds) or (isinstance(default, bool) and kinds is not bool):
@@ -139,8 +143,8 @@ class Plugin:
         """A trial begins. All random numbers come from the seed, nothing from earlier trials."""
 
     def log(self, message: str) -> None:
-        """Writes a line to the log."""
-        self._log(message)  # type: ignore[attr-defined]
+        """Writes a line to the log; without dmrp-host, to the terminal."""
+        getattr(self, "_log", print)(message)
 
 
 class LocalController(Plugin):

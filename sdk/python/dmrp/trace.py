@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
 
 from .fields import Elements, FieldList, Record, array_of
 from .mcap import Channel, TraceError
+
+if TYPE_CHECKING:
+    from .plugin import Metric
 
 TOPIC = "dmrp/trace"
 _ELEMENTS = ("robots", "people", "contacts", "calls", "events")
@@ -143,6 +146,16 @@ class Trace:
     def routes(self) -> list[tuple[int, Record]]:
         """What controllers were handed: its time in ns, and robot, kept and waypoints as in `dmrp_route`."""
         return self._routes
+
+    def measure(self, metric: Metric) -> Any:
+        """What the metric, an object of a class in Python, gives of this trace: it is shown what it would be shown in a
+        run. Its parameters have their defaults, or what its attributes were set to; the seed of start() is 0."""
+        from . import _metric_view
+
+        seen = _metric_view.of(self, metric.people)
+        metric.load()
+        metric.start(seen.world, 0)
+        return metric.measure(seen)
 
     def __repr__(self) -> str:
         cut = "" if self.is_whole else ", cut"

@@ -24,7 +24,7 @@ _TRIPLES = {name: np.dtype((np.float64, 3)) for name in ("dmrp_pose", "dmrp_twis
 _PAIR = np.dtype((np.float64, 2))
 
 
-def _flat(dtype: np.dtype[Any]) -> np.dtype[Any]:
+def flat(dtype: np.dtype[Any]) -> np.dtype[Any]:
     """The same bytes, with poses, twists and vectors as rows of numbers."""
     names, formats, offsets = [], [], []
     for name, (kind, offset) in ((name, dtype.fields[name][:2]) for name in dtype.names or ()):  # type: ignore[index]
@@ -35,14 +35,14 @@ def _flat(dtype: np.dtype[Any]) -> np.dtype[Any]:
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": dtype.itemsize})
 
 
-AGENT = _flat(_abi.dtypes["dmrp_agent"])  # id, kind, state, pose (3), velocity (2), radius_m
-PERSON = _flat(_abi.dtypes["dmrp_person"])
-GOAL = _flat(_abi.dtypes["dmrp_goal"])
+AGENT = flat(_abi.dtypes["dmrp_agent"])  # id, kind, state, pose (3), velocity (2), radius_m
+PERSON = flat(_abi.dtypes["dmrp_person"])
+GOAL = flat(_abi.dtypes["dmrp_goal"])
 WAYPOINT = _abi.dtypes["dmrp_waypoint"]  # x, y, theta, t_ns, goal_index
-OBSERVATION = _flat(_abi.dtypes["dmrp_observation"])
-ROBOT_SAMPLE = _flat(_abi.dtypes["dmrp_robot_sample"])
-CONTACT = _flat(_abi.dtypes["dmrp_contact"])
-PLANNING_ROBOT = _flat(_abi.dtypes["dmrp_planning_robot"])
+OBSERVATION = flat(_abi.dtypes["dmrp_observation"])
+ROBOT_SAMPLE = flat(_abi.dtypes["dmrp_robot_sample"])
+CONTACT = flat(_abi.dtypes["dmrp_contact"])
+PLANNING_ROBOT = flat(_abi.dtypes["dmrp_planning_robot"])
 _OBSERVATION = _abi.structs["dmrp_observation"]
 AGENT_ROBOT = _abi.constants["DMRP_AGENT_ROBOT"]
 AGENT_PERSON = _abi.constants["DMRP_AGENT_PERSON"]
@@ -354,11 +354,13 @@ class Problem:
 
 class Trace:
     """A finished trial, for a metric. Rows of `robots` are samples, columns robots: pose (3), velocity (3), command (3),
-    state, goal_index, progress_m. `people` and `contacts` have an array a sample. `plan` has the first plan's paths."""
+    state, goal_index, progress_m. `people` and `contacts` have an array a sample. `plan` has the first plan's paths:
+    x, y, theta, t_ns, goal_index; without a plan it is empty, and `step_duration_ns` 0."""
 
     def __init__(self, world: World) -> None:
         self.world = world
         self.plan: list[Array] = []
+        self.step_duration_ns = 0
         self.t_ns: Any = []
         self.robots: Any = []
         self.people: list[Array] = []
@@ -371,6 +373,7 @@ class Trace:
         if plan:
             made = _abi.at("dmrp_plan", plan)
             self.plan = [path_of(made.paths + i * made.path_stride).copy() for i in range(made.path_count)]
+            self.step_duration_ns = int(made.step_duration_ns)
 
     def add(self, address: int) -> None:
         sample = _abi.at("dmrp_sample", address)
@@ -383,4 +386,4 @@ class Trace:
         end = _abi.at("dmrp_trial_end", address)
         self.ending, self.end_ns = end.ending, end.t_ns
         self.t_ns = np.array(self.t_ns, np.int64)
-        self.robots = np.stack(self.robots) if self.robots else np.empty((0, 0), ROBOT_SAMPLE)
+        self.robots = np.stack(self.robots) if self.robots else np.empty((0, len(self.world.robots)), ROBOT_SAMPLE)
