@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The collision-free speed model, as published: Tordeux, Chraibi, Seyfried, Traffic and Granular Flow '15 (Springer 2016).
-Walls push as neighbours do. People who block each other take turns, as in the built-in model of this name."""
+"""The collision-free speed model of Tordeux, Chraibi, Seyfried (Traffic and Granular Flow '15, Springer 2016), walls
+pushing as neighbours do; and people who block each other take turns, as in the built-in model of this name: without this
+(right_of_way = false, as published) doors clog."""
 
 import numpy as np
 
