@@ -28,7 +28,7 @@ double median(std::span<const double> values);     // needs one value; the mean 
 
 // Student's t for the mean of n >= 2 normal values: exceeded with this probability.
 double student_quantile(std::size_t n, double probability);
-// With which probability it is at least |t| away from 0; 1 if t is undefined.
+// The probability that it lies at least |t| away from 0; 1 if t is undefined.
 double student_two_sided(std::size_t n, double t);
 
 // The p-quantile of ascending values, with linear interpolation (Hyndman and Fan's type 7).

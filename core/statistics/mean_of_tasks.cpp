@@ -16,7 +16,7 @@ namespace {
 // differs, and a division by nearly nothing would make the interval as wide as one likes.
 constexpr double least_error = 0.2;
 
-// Of an observation's value from the mean.
+// How far an observation's value lies from the mean.
 struct Deviation {
   std::size_t observation = 0;
   double value = 0.0;
@@ -35,8 +35,7 @@ struct MeanAndError {
   double error = undefined;
 };
 
-// Of values that each count `count_of(observation)` times: the mean, and its standard error over strata that are drawn
-// within.
+// The mean of values that each count `count_of(observation)` times, and its standard error where draws stay within strata.
 template <class CountOf>
 MeanAndError mean_and_error(const Strata& strata, const CountOf& count_of) {
   double counts = 0.0;
@@ -59,8 +58,8 @@ MeanAndError mean_and_error(const Strata& strata, const CountOf& count_of) {
   return {sums / counts, std::sqrt(variance) / counts};
 }
 
-// Of the mean of unbounded values: the bootstrap-t, not nearer to the mean than Student's interval at either end: with long
-// tails on both sides the bootstrap-t is too narrow, with one it is not, where Student's is. Below ten Student's alone.
+// Unbounded values get the bootstrap-t, not nearer to the mean than Student's interval at either end: with long tails on
+// both sides the bootstrap-t is too narrow; with one it is not, where Student's is. Below ten Student's stands alone.
 void add_interval(MeanOfTasks& result, std::span<const double> values, const Resampling& resampling) {
   const Strata strata = strata_of(values, result.mean, resampling);
   const MeanAndError observed = mean_and_error(strata, [](std::size_t) { return 1.0; });

@@ -26,8 +26,8 @@ struct MeanOfTasks {
   double mean = undefined;
   double sd = undefined;  // of the observations, with n - 1
   Interval interval;      // undefined: none
-  // Of the interval's own procedure, two-sided, that the mean is 0: below 0.05 where the interval excludes 0. Undefined of
-  // the mean of bounded values, and without an interval.
+  // The interval's own procedure tests, two-sided, whether the mean is 0: p is below 0.05 where the interval excludes 0. It
+  // is undefined for means of bounded values, and without an interval.
   double p = undefined;
 };
 
@@ -44,8 +44,8 @@ MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds,
 MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
                                 const Resampling& resampling);
 
-// Of differences that are already paired (the times of robots that arrived with both). The interval of unbounded ones is
-// the bootstrap-t from ten observations on, Student's from five.
+// `differences` are already paired (the times of robots that arrived with both). The interval of unbounded ones is the
+// bootstrap-t from ten observations on, Student's from five.
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling);
 

@@ -14,7 +14,8 @@ namespace dmrp::host {
 // The keys of the tables of one kind.
 std::vector<TomlKey> plugin_use_keys(std::uint32_t kind);
 
-// Where the table names the plugin, or the file of plans, of this use; none: the table is of another one.
+// Returns the value by which the table names the plugin, or the file of plans, of this use; none: the table is of another
+// use.
 std::optional<TomlValue> naming(const TomlTable& table, const PluginUse& use);
 
 // Reads all tables of one kind (DMRP_KIND_*) into `uses`, a list of the experiment: one use for each variant of a sweep.

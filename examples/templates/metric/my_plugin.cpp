@@ -25,9 +25,10 @@ class SpeedNearPeople final : public dmrp::Metric {
         .license("MIT")
         .summary("speed of robots while a person is near")
         .value("speed_near_people", "m/s", dmrp::Direction::lower_is_better, dmrp::Subjects::system_and_robots,
-               "mean speed of a robot while a person is near; of the system: the mean over robots")
+               "mean speed of a robot while a person is near; of the system: the mean over robots",
+               dmrp::never_negative)
         .value("time_near_people", "s", dmrp::Direction::lower_is_better, dmrp::Subjects::system_and_robots,
-               "time that a robot spends near a person; of the system: the sum over robots")
+               "time that a robot spends near a person; of the system: the sum over robots", dmrp::never_negative)
         .channels(DMRP_CHANNEL_PEOPLE);
   }
 

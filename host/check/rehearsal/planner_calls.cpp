@@ -20,7 +20,7 @@ constexpr std::uint32_t steps_between_plans = 3;  // unless there are windows
 constexpr int most_plans = 3;
 constexpr int most_windows = 12;
 
-// Where a robot that keeps to this path is at a time.
+// Returns where a robot that keeps to this path is at a time.
 dmrp_vec2 place_on(const std::vector<dmrp_waypoint>& path, std::int64_t t_ns) {
   const auto next = std::find_if(path.begin(), path.end(), [&](const dmrp_waypoint& w) { return w.t_ns > t_ns; });
   if (next == path.begin()) return {path.front().x, path.front().y};

@@ -12,7 +12,7 @@
 //   values            {metric: [the system's value of each trial]}, to seven significant digits; without metrics that
 //                     have curves only
 //   met               what the trials have met, in words; observation: "task" or "crowd", that n counts
-//   summaries         [combination][metric]: {trials, n, defined, mean, sd, median, low, high, paper_mean,
+//   summaries         [combination][metric]: {trials, n, defined, mean, sd, median, low, high, at_most, paper_mean,
 //                     paper_count, paper_trimmed_all_nonzero}: the numbers of summary.csv
 //   planners          [{scenario, robots, global_planner}], planner_summaries [planner][metric]: the same over all
 //                     controllers and pedestrian models

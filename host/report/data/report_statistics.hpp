@@ -11,7 +11,8 @@
 //                     decided: criterion, words, pareto, intervals: [[low, high]], against: [{n, mean, low, high,
 //                     equal}]}]}]: answer.hpp; the first is over everything
 //   best              [{labels, metric}]: best_marks.hpp; those of planners have an empty local_controller
-//   failures          [{combination: labels, robots, causes: [{cause, robots, roots, trials}], contact: {likewise}}],
+//   failures          [{combination: labels, robots, causes: [{cause, robots, after_contact, roots, trials}],
+//                     contact: {likewise}}],
 //   failures_line     failure_causes.hpp
 //   growth_line       manifest.hpp
 //   standstills_line  likewise

@@ -11,7 +11,8 @@ class TimeNearPeople(dp.Metric):
 
     id = "org.example.my_plugin"
     version = "0.1.0"
-    values = [dp.value("time_near_people", "s", "lower", "time nearer to a person than `near_m`", ("system", "robot"))]
+    values = [dp.value("time_near_people", "s", "lower", "time nearer to a person than `near_m`", ("system", "robot"),
+                       low=0.0)]
     people = True  # the trace has them
     near_m: float = dp.number(1.2, low=0.0, high=10.0, unit="m", help="distance of centres")
 
