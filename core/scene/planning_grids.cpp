@@ -8,12 +8,32 @@
 
 namespace dmrp::core {
 
-PlanningGrids::PlanningGrids(const StaticGeometry& geometry, const RobotTypes& types, double resolution_m,
-                             double margin_m) {
+RobotSettings planning_body_of(const RobotSettings& type, const SimulationSettings& simulation) {
+  RobotSettings body = type;
+  if (simulation.planning_body == PlanningBody::footprint) return body;
+  body.radius_m = 0.0;
+  body.parts.clear();
+  return body;
+}
+
+double planning_clearance_m(const RobotSettings& type, const SimulationSettings& simulation) {
+  return planning_body_of(type, simulation).radius_m + simulation.planning_margin_m;
+}
+
+PlanningGrid build_planning_grid(const StaticGeometry& geometry, const RobotSettings& type,
+                                 const SimulationSettings& simulation) {
+  const double cell_m = simulation.grid_resolution_m;
+  if (simulation.planning_body == PlanningBody::footprint)
+    return build_planning_grid(geometry, cell_m, type, simulation.planning_margin_m);
+  return build_planning_grid(geometry, cell_m, simulation.planning_margin_m, 0.0);
+}
+
+PlanningGrids::PlanningGrids(const StaticGeometry& geometry, const RobotTypes& types,
+                             const SimulationSettings& simulation) {
   for (const RobotSettings& type : types.all()) {
     types_.push_back(type.type);
     radii_m_.push_back(type.radius_m);
-    grids_.push_back(build_planning_grid(geometry, resolution_m, type, margin_m));
+    grids_.push_back(build_planning_grid(geometry, type, simulation));
   }
 }
 

@@ -15,10 +15,19 @@
 
 namespace dmrp::core {
 
+// A robot as planners see it (SimulationSettings::planning_body).
+RobotSettings planning_body_of(const RobotSettings& type, const SimulationSettings& simulation);
+
+// The clearance that its circle's centre needs on a planning cell.
+double planning_clearance_m(const RobotSettings& type, const SimulationSettings& simulation);
+
+PlanningGrid build_planning_grid(const StaticGeometry& geometry, const RobotSettings& type,
+                                 const SimulationSettings& simulation);
+
 // The grids have the same cells; they differ in which cells are free and which edges are open.
 class PlanningGrids {
  public:
-  PlanningGrids(const StaticGeometry& geometry, const RobotTypes& types, double resolution_m, double margin_m);
+  PlanningGrids(const StaticGeometry& geometry, const RobotTypes& types, const SimulationSettings& simulation);
 
   const PlanningGrid& standard() const { return grids_[0]; }  // of the default type
   const PlanningGrid& of(std::string_view type) const;        // "": the default type

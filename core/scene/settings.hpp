@@ -14,9 +14,12 @@
 
 namespace dmrp::core {
 
-enum class Tracking { none, visible, all };   // the agents that a controller observes; visible: in range and in sight
-enum class Dispatch { full_path, waypoint };  // a controller gets the whole path, or one waypoint at a time
-enum class Execution { free, ordered };       // ordered: robots pass shared cells in the plan's order
+enum class Tracking { none, visible, all };  // the agents that a controller observes; visible: in range and in sight
+
+// A controller gets the whole path, or one waypoint at a time; in lockstep, when all robots are at theirs.
+enum class Dispatch { full_path, waypoint, lockstep };
+
+enum class Execution { free, ordered };  // ordered: robots pass shared cells in the plan's order
 
 struct LidarSettings {
   std::uint32_t beams = 360;
@@ -122,6 +125,9 @@ struct NavigationSettings {
   bool monitor = false;  // collision_monitor.hpp
 };
 
+// What planners plan for. A point is a disc of radius planning_margin_m to walls, and has no extent to other robots.
+enum class PlanningBody { footprint, point };
+
 struct SimulationSettings {
   std::int64_t step_ns = 20'000'000;
   std::int64_t control_period_ns = 100'000'000;  // a multiple of step_ns
@@ -131,6 +137,7 @@ struct SimulationSettings {
   std::int64_t time_limit_ns = 180'000'000'000;
   double grid_resolution_m = 1.0;
   double planning_margin_m = 0.10;  // a cell is free if the clearance at its centre is at least radius + this
+  PlanningBody planning_body = PlanningBody::footprint;
   Tracking tracking = Tracking::visible;
   double tracking_range_m = 10.0;
   double tracking_velocity_noise_sd = 0.0;  // m/s, for each component

@@ -133,8 +133,7 @@ void print_difficulty(const Experiment& experiment) {
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::SimulationSettings& simulation = experiment.simulation;
   const core::StaticGeometry geometry(scenario);
-  const core::PlanningGrids grids(geometry, experiment.scenarios[0].types, simulation.grid_resolution_m,
-                                  simulation.planning_margin_m);
+  const core::PlanningGrids grids(geometry, experiment.scenarios[0].types, simulation);
   const core::TaskDifficulty difficulty =
       core::difficulty_of(grids.common(types_in_use(experiment.scenarios[0])), scenario.robots);
   fmt::print(stderr, "{} robot{}: {} pair{} of individual paths in conflict, {} in corridors", scenario.robots.size(),

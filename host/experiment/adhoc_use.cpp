@@ -111,8 +111,7 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
   core::Scenario& scenario = experiment.scenarios[0].scenario;
   const core::StaticGeometry geometry(scenario);
   const core::SimulationSettings& simulation = experiment.simulation;
-  const core::PlanningGrids grids(geometry, core::RobotTypes(experiment.robot), simulation.grid_resolution_m,
-                                  simulation.planning_margin_m);
+  const core::PlanningGrids grids(geometry, core::RobotTypes(experiment.robot), simulation);
   core::DrawnTasks drawn = core::draw_tasks(grids, {robots, {}, scenario.inside, wishes}, seed);
   scenario.robots = std::move(drawn.tasks);
   if (scenario.robots.size() < robots)

@@ -69,7 +69,7 @@ class WorldCheck {
         root_(root),
         scenario_(file.scenario),
         geometry_(std::make_shared<core::StaticGeometry>(scenario_)),
-        planning_(*geometry_, types, experiment.simulation.grid_resolution_m, experiment.simulation.planning_margin_m) {
+        planning_(*geometry_, types, experiment.simulation) {
     for (const core::RobotSettings& type : types.all()) grids_[type.type] = planning_.of(type.type).view();
   }
 
@@ -85,6 +85,7 @@ class WorldCheck {
       for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
     mistakes.attempt([&] { check_people(file_, geometry_, planning_, drawn_, experiment_); });
     mistakes.end();
+    if (experiment_.simulation.planning_body == core::PlanningBody::point) return check_margin_of_points();
     check_cell_size();
   }
 
@@ -97,6 +98,16 @@ class WorldCheck {
   }
   [[noreturn]] void fail_robot(std::size_t robot, const std::string& text) const {
     file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot, text));
+  }
+
+  // Plans may lead robots into walls where points keep less clearance than a robot needs.
+  void check_margin_of_points() {
+    const core::SimulationSettings& simulation = experiment_.simulation;
+    for (const core::RobotTask& task : scenario_.robots)
+      if (const double radius_m = types_.of(task).radius_m; simulation.planning_margin_m < radius_m)
+        return warn(file_.size, fmt::format("planning_body = \"point\" with planning_margin_m = {}: plans lead robots "
+                                            "of radius {} m into walls",
+                                            simulation.planning_margin_m, radius_m));
   }
 
   // The two largest robots fit cells next to each other, whatever they do.
@@ -121,9 +132,10 @@ class WorldCheck {
            });
   }
 
-  // Whether a robot of this type could do the task on a grid of these cells and this margin.
-  bool would_do(const core::RobotTask& task, const core::RobotSettings& type, double cell_m, double margin_m) const {
-    const core::PlanningGrid planning = core::build_planning_grid(*geometry_, cell_m, type, margin_m);
+  // Whether a robot of this type could do the task on the planning grid of these settings.
+  bool would_do(const core::RobotTask& task, const core::RobotSettings& type,
+                const core::SimulationSettings& simulation) const {
+    const core::PlanningGrid planning = core::build_planning_grid(*geometry_, type, simulation);
     const dmrp_grid view = planning.view();
     const toolkit::GridView grid(view);
     std::vector<bool> seen;
@@ -147,12 +159,16 @@ class WorldCheck {
     std::vector<std::string> found;
     for (const double cell_m : proposed_cells_m) {
       if (cell_m >= now.grid_resolution_m || world_m2 / (cell_m * cell_m) > most_cells_tried) continue;
-      if (!would_do(task, type, cell_m, now.planning_margin_m)) continue;
+      core::SimulationSettings finer = now;
+      finer.grid_resolution_m = cell_m;
+      if (!would_do(task, type, finer)) continue;
       found.push_back(fmt::format("grid_resolution_m = {}", cell_m));
       break;
     }
     for (const double margin_m : {0.05, 0.02, 0.0}) {
-      if (margin_m >= now.planning_margin_m || !would_do(task, type, now.grid_resolution_m, margin_m)) continue;
+      core::SimulationSettings closer = now;
+      closer.planning_margin_m = margin_m;
+      if (margin_m >= now.planning_margin_m || !would_do(task, type, closer)) continue;
       found.push_back(fmt::format("planning_margin_m = {}", margin_m));
       break;
     }
@@ -165,7 +181,7 @@ class WorldCheck {
     const dmrp_vec2 point = {pose.x, pose.y};
     const core::RobotSettings& type = types_.of(scenario_.robots[robot]);
     const double radius_m = core::inscribed_radius(type);
-    const double needed_m = type.radius_m + experiment_.simulation.planning_margin_m;
+    const double needed_m = core::planning_clearance_m(type, experiment_.simulation);
     if (!geometry_->inside_world(point))
       fail_robot(robot, fmt::format("{} outside the world, at ({}, {})", verb, point.x, point.y));
     const core::NearestShape nearest = geometry_->nearest(point);
@@ -204,9 +220,7 @@ class WorldCheck {
     try {
       check_robot(robot);
     } catch (const InputError& mistake) {
-      if (!footprint || type.radius_m <= usual.radius_m ||
-          !would_do(task, usual, simulation.grid_resolution_m, simulation.planning_margin_m))
-        throw;
+      if (!footprint || type.radius_m <= usual.radius_m || !would_do(task, usual, simulation)) throw;
       const std::string& first = too_large_.try_emplace(type.type, mistake.what()).first->second;
       footprint->fail(
           fmt::format("robots of radius {} m do not fit into scenario '{}': {}", type.radius_m, scenario_.name, first));
@@ -262,7 +276,8 @@ class WorldCheck {
   void check_cells(std::size_t a, std::size_t b, const char* noun, toolkit::Cell cell_a, toolkit::Cell cell_b) const {
     const auto body = [&](std::size_t robot) {
       const core::RobotSettings& type = types_.of(scenario_.robots[robot]);
-      return core::StepOverlaps::Robot{type.radius_m, type.parts, &grids_.at(type.type), true};
+      const core::RobotSettings body = core::planning_body_of(type, experiment_.simulation);
+      return core::StepOverlaps::Robot{body.radius_m, body.parts, &grids_.at(type.type), true};
     };
     const double cell_m = experiment_.simulation.grid_resolution_m;
     core::StepOverlaps overlaps(cell_m, {body(a), body(b)});
@@ -303,9 +318,10 @@ void check_points_inside(const ScenarioFile& file, const WorldCheck& check, cons
   if (file.inside) file.document->fail(*file.inside, "'inside_m' must lie on a free planning cell");
   if (!scenario.edge_is_open || scenario.inside.empty()) return;
   const auto would_do = [&](double cell_m) {
+    core::SimulationSettings finer = now;
+    finer.grid_resolution_m = cell_m;
     return cell_m < now.grid_resolution_m &&
-           any_on_free_cell(scenario.inside, core::build_planning_grid(check.geometry(), cell_m, experiment.robot,
-                                                                       now.planning_margin_m));
+           any_on_free_cell(scenario.inside, core::build_planning_grid(check.geometry(), experiment.robot, finer));
   };
   const auto found = std::find_if(proposed_cells_m.begin(), proposed_cells_m.end(), would_do);
   file.document->fail(

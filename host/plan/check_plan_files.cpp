@@ -41,9 +41,9 @@ class PlansOfScenario {
     const std::string task = task_hash(world.scenario);
     const PlannerAnswer answer = plans_.answer(repetition, task, problem.c);
     if (answer.status != DMRP_OK) return answer.text;
-    const PlanVerdict verdict = validate_plan(
-        problem.c, answer.paths, use_.info.connectivity,
-        [&](auto from, auto to, double radius_m) { return world.geometry->sweep_is_free(from, to, radius_m); });
+    const PlanVerdict verdict =
+        validate_plan(problem.c, answer.paths, use_.info.connectivity,
+                      [&](auto from, auto to, double radius_m) { return world.sweep_is_free(from, to, radius_m); });
     if (const std::string breach = breach_of(verdict, use_.info); !breach.empty())
       plans_.file().fail(task, verdict.robot, verdict.waypoint,
                          fmt::format("{} (scenario '{}', repetition {})", breach, scenario_.label, repetition));

@@ -18,11 +18,14 @@ struct PlanTask {
   std::unique_ptr<const core::WorldView> cell_view;  // of a map of cells
   StagedProblem problem;
 
-  const dmrp_world& world() const { return variant ? variant->view.world() : cell_view->world(); }
+  const dmrp_world& world() const {
+    return variant ? variant->world_for(DMRP_KIND_GLOBAL_PLANNER) : cell_view->world();
+  }
 
   PlanVerdict validate(const PlannedPaths& paths, std::uint32_t connectivity) const {
-    return validate_plan(problem.c, paths, connectivity,
-                         [this](auto from, auto to, double r) { return geometry->sweep_is_free(from, to, r); });
+    return validate_plan(problem.c, paths, connectivity, [this](auto from, auto to, double r) {
+      return variant ? variant->sweep_is_free(from, to, r) : geometry->sweep_is_free(from, to, r);
+    });
   }
 };
 

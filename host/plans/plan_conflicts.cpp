@@ -14,6 +14,7 @@ namespace dmrp::host {
 namespace {
 
 constexpr double tolerance_m = 1e-6;
+constexpr double points_meet_m = 1e-3;  // points, which have no extent, meet within this
 
 using Robot = std::uint32_t;
 using Pair = std::pair<Robot, Robot>;  // the lower number first
@@ -187,7 +188,7 @@ Box box_of(const std::vector<dmrp_waypoint>& path, Robot robot, double radius_m,
   auto inside = std::lower_bound(path.begin(), path.end(), from_ns,
                                  [](const dmrp_waypoint& w, std::int64_t t) { return w.t_ns < t; });
   for (; inside != path.end() && inside->t_ns <= to_ns; ++inside) widen({inside->x, inside->y});
-  const double margin_m = radius_m + tolerance_m;
+  const double margin_m = std::max(radius_m, points_meet_m) + tolerance_m;
   box.lower = {box.lower.x - margin_m, box.lower.y - margin_m};
   box.upper = {box.upper.x + margin_m, box.upper.y + margin_m};
   return box;
@@ -382,7 +383,7 @@ PlanConflicts find_disc_conflicts(const PlannedPaths& paths, const std::vector<d
     const Pair robots = meetings[i].robots;
     const auto& a = paths[robots.first];
     const auto& b = paths[robots.second];
-    const double clear_m = radii_m[robots.first] + radii_m[robots.second] - tolerance_m;
+    const double clear_m = std::max(radii_m[robots.first] + radii_m[robots.second], points_meet_m) - tolerance_m;
     Intervals intervals(a, b);
     for (; i < meetings.size() && meetings[i].robots == robots; ++i)
       intervals.visit(

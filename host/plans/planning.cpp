@@ -129,7 +129,7 @@ bool put_on_cells(const VariantWorld& variant, const core::World& world, const t
 
 void describe_robots(const VariantWorld& variant, const core::World& world, const toolkit::GridView& grid,
                      StagedProblem& problem) {
-  const dmrp_world& view = variant.view.world();
+  const dmrp_world& view = variant.world_for(DMRP_KIND_GLOBAL_PLANNER);
   problem.goals.resize(world.robots().size());
   for (const core::RobotSettings& type : variant.types.all())
     problem.grids[type.type] = variant.planning_grids->of(type.type).view();
@@ -288,8 +288,7 @@ Plan make_plan(const PlanSource& source, const PluginInfo& info, const VariantWo
   cut_to_window(problem.c, plan);
   const PlanVerdict verdict = validate_plan(
       problem.c, plan.paths, info.connectivity,
-      [&](auto from, auto to, double radius_m) { return variant.geometry->sweep_is_free(from, to, radius_m); },
-      plan.partial);
+      [&](auto from, auto to, double radius_m) { return variant.sweep_is_free(from, to, radius_m); }, plan.partial);
   if (const std::string breach = breach_of(verdict, info); !breach.empty())
     throw PluginFault(fault_kind::bad_output, {info.id, "plan", step}, breach);
   plan.conflicts = verdict.conflicts;

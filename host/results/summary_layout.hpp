@@ -20,7 +20,7 @@ struct SummaryTableColumn {
   std::uint32_t decimals = 2;
   std::string spread;   // metric shown as "±0.17" after the value; empty for none
   bool median = false;  // of the trials, instead of the mean: for times of the machine, which have outliers
-  std::string legend;   // what the header stands for; empty: nothing to explain
+  std::string legend;   // what the header stands for, {metric} for values of another one; empty: nothing to explain
 };
 
 // The metrics by which combinations are ordered (host/ranking/answer.hpp).

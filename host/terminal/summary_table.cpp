@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host/terminal/summary_table.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "host/terminal/display_width.hpp"
@@ -164,6 +167,20 @@ std::size_t columns_that_fit(std::span<const Column> columns, std::size_t begin,
   return end - begin;
 }
 
+// "on cells of {cell_size}" with the means of that metric in all combinations: "on cells of 0.05, 1 m".
+std::string with_values(const std::string& legend, std::span<const MetricColumn> metrics,
+                        std::span<const CombinationSummary> summaries) {
+  const std::size_t begin = legend.find('{'), end = legend.find('}');
+  if (begin == std::string::npos || end == std::string::npos) return legend;
+  const std::optional<std::size_t> metric = index_of(metrics, legend.substr(begin + 1, end - begin - 1));
+  std::set<double> values;
+  for (const CombinationSummary& summary : summaries)
+    if (metric && !std::isnan(summary.metrics[*metric].mean)) values.insert(summary.metrics[*metric].mean);
+  const std::string shown =
+      values.empty() ? "?" : fmt::format("{:.3g} {}", fmt::join(values, ", "), metrics[*metric].unit);
+  return legend.substr(0, begin) + shown + legend.substr(end + 1);
+}
+
 }  // namespace
 
 std::string summary_table(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
@@ -196,14 +213,15 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
   return text;
 }
 
-std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics, const Met& met,
-                         std::span<const BestMark> marks, const TableStyle& style) {
+std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
+                         std::span<const CombinationSummary> summaries, const Met& met, std::span<const BestMark> marks,
+                         const TableStyle& style) {
   std::vector<std::string> parts = {"means over " + met_words(met)};
   bool spread = false;
   bool marked = false;
   for (const SummaryTableColumn& column : layout.columns) {
     if (!index_of(metrics, column.metric)) continue;
-    if (!column.legend.empty()) parts.push_back(column.header + ": " + column.legend);
+    if (!column.legend.empty()) parts.push_back(column.header + ": " + with_values(column.legend, metrics, summaries));
     spread = spread || index_of(metrics, column.spread);
     marked = marked || std::any_of(marks.begin(), marks.end(),
                                    [&](const BestMark& mark) { return mark.metric == column.metric; });

@@ -80,7 +80,7 @@ void Dispatcher::set_plan(const Plan& plan) {
     if (ordered()) find_stages(course);
   }
   if (ordered()) dependencies_.set_plan(variant_.planning_grid.view(), plan.paths, positions);
-  for (std::uint32_t i = 0; i < courses_.size(); ++i) places_[i] = place_of(i);
+  update_places();
 }
 
 // Numbers the cells along the course as the dependency graph does: a leg from a cell's centre to a goal in the same cell
@@ -100,11 +100,17 @@ void Dispatcher::update_progress() {
   for (std::uint32_t i = 0; i < progress_.size(); ++i) {
     const core::RobotState& robot = world_.robots()[i];
     progress_[i].update(toolkit::position(robot.pose), robot.goal_index);
-    places_[i] = place_of(i);
   }
+  update_places();
 }
 
-core::CoursePlace Dispatcher::place_of(std::uint32_t robot) const {
+void Dispatcher::update_places() {
+  const std::optional<std::uint32_t> late = in_lockstep() ? last_to_arrive() : std::nullopt;
+  for (std::uint32_t i = 0; i < courses_.size(); ++i) places_[i] = place_of(i, late);
+}
+
+// `late`: the robot for which the others wait in lockstep.
+core::CoursePlace Dispatcher::place_of(std::uint32_t robot, std::optional<std::uint32_t> late) const {
   const Course& course = courses_[robot];
   if (course.path.empty()) return {};
   core::CoursePlace place;
@@ -114,16 +120,22 @@ core::CoursePlace Dispatcher::place_of(std::uint32_t robot) const {
   place.passed = progress_[robot].waypoint();
   place.returns = course.early_visit >= place.passed;
   if (ordered() && is_held(robot)) place.holder = dependencies_.holder(robot);
+  if (late && is_at_target(robot)) place.holder = late;
   return place;
 }
 
 void Dispatcher::update_targets() {
   if (ordered()) release();
   for (std::uint32_t i = 0; i < courses_.size(); ++i) {
-    if (world_.robots()[i].state != DMRP_ROBOT_ACTIVE || courses_[i].path.empty()) continue;
+    if (!is_driving(i)) continue;
     cut(i);
-    if (by_waypoint()) advance(i);
+    if (by_waypoint() && !in_lockstep()) advance(i);
   }
+  if (in_lockstep()) advance_together();
+}
+
+bool Dispatcher::is_driving(std::uint32_t robot) const {
+  return world_.robots()[robot].state == DMRP_ROBOT_ACTIVE && !courses_[robot].path.empty();
 }
 
 void Dispatcher::cut(std::uint32_t robot) {
@@ -163,10 +175,33 @@ void Dispatcher::release() {
 
 void Dispatcher::advance(std::uint32_t robot) {
   Course& course = courses_[robot];
-  const auto is_passed = [&] { return course.target < course.behind || is_near(robot, course.path[course.target]); };
-  while (course.target < course.cut && is_passed()) {
+  while (course.target < course.cut && is_at_target(robot)) {
     ++course.target;
     course.is_new = true;
+  }
+}
+
+bool Dispatcher::is_at_target(std::uint32_t robot) const {
+  const Course& course = courses_[robot];
+  return course.target < course.behind || is_near(robot, course.path[course.target]);
+}
+
+// The robot with the lowest number that is not at its waypoint; none if all are.
+std::optional<std::uint32_t> Dispatcher::last_to_arrive() const {
+  for (std::uint32_t i = 0; i < courses_.size(); ++i)
+    if (is_driving(i) && !is_at_target(i)) return i;
+  return std::nullopt;
+}
+
+void Dispatcher::advance_together() {
+  for (bool has_more = true; has_more && !last_to_arrive();) {
+    has_more = false;
+    for (std::uint32_t i = 0; i < courses_.size(); ++i) {
+      Course& course = courses_[i];
+      if (!is_driving(i) || course.target >= course.cut) continue;
+      ++course.target;
+      course.is_new = has_more = true;
+    }
   }
 }
 

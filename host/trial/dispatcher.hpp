@@ -6,6 +6,7 @@
 #include <dmrp/robot.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct PathUpdate {
 // - dispatch = "waypoint": the controller gets one waypoint at a time, and the next one when the robot is within the
 //   goal's tolerance of it; the robot neither stops nor waits for others. A wait in the plan is reached at once, so it
 //   has no effect. At a goal the robot has to arrive, as on a full path.
+// - dispatch = "lockstep": the same with a barrier: the robots get their next waypoints together, when each of those that
+//   are active is near its own. So a wait in the plan lasts as long as the others drive.
 // - execution = "ordered": the course is released as far as the action dependency graph of the plan allows. A robot has
 //   reached a cell when it is within the goal's tolerance of the cell's centre or has passed it.
 class Dispatcher {
@@ -78,7 +81,7 @@ class Dispatcher {
     std::uint32_t released = 0;         // the last waypoint that the order lets it pass
     std::vector<std::uint32_t> turns;   // waypoints at which the course turns back, that the robot has not reached
     std::uint32_t cut = 0;              // the last waypoint that the controller gets
-    std::uint32_t target = 0;           // the waypoint that the robot drives to, if dispatch is by waypoint
+    std::uint32_t target = 0;           // the waypoint that the robot drives to, if it gets waypoints
     std::int64_t early_visit = -1;      // the last waypoint at the last goal from which the course leaves and returns
     std::uint32_t behind = 0;           // waypoints at the beginning to which the robot need not drive back
     bool is_partial = false;            // it ends before the last goal
@@ -87,7 +90,8 @@ class Dispatcher {
   };
 
   bool ordered() const { return variant_.simulation.execution == core::Execution::ordered; }
-  bool by_waypoint() const { return variant_.simulation.dispatch == core::Dispatch::waypoint; }
+  bool by_waypoint() const { return variant_.simulation.dispatch != core::Dispatch::full_path; }
+  bool in_lockstep() const { return variant_.simulation.dispatch == core::Dispatch::lockstep; }
   bool is_near(std::uint32_t robot, const dmrp_waypoint& waypoint) const;
   std::uint32_t waypoints_behind(std::uint32_t robot, const std::vector<dmrp_waypoint>& path) const;
   std::uint32_t goal_waypoint(std::uint32_t robot) const;
@@ -97,8 +101,13 @@ class Dispatcher {
   std::int64_t time_on_path_ns(std::uint32_t robot) const;
   void release();
   void cut(std::uint32_t robot);
+  bool is_driving(std::uint32_t robot) const;
+  bool is_at_target(std::uint32_t robot) const;
+  std::optional<std::uint32_t> last_to_arrive() const;
   void advance(std::uint32_t robot);
-  core::CoursePlace place_of(std::uint32_t robot) const;
+  void advance_together();
+  core::CoursePlace place_of(std::uint32_t robot, std::optional<std::uint32_t> late) const;
+  void update_places();
 
   const VariantWorld& variant_;
   const core::World& world_;

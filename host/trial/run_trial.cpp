@@ -164,7 +164,7 @@ class Run {
 
   // A single waypoint is led nowhere.
   std::optional<Navigator> navigator_of(const VariantWorld& variant) {
-    if (settings_.navigation.route == core::LocalRoute::path || settings_.dispatch == core::Dispatch::waypoint)
+    if (settings_.navigation.route == core::LocalRoute::path || settings_.dispatch != core::Dispatch::full_path)
       return std::nullopt;
     for (std::uint32_t i = 0; i < world_.robots().size(); ++i) plugins_.sensors(i).subscribe_to_costmap();
     return Navigator(variant, world_);

@@ -109,10 +109,10 @@ TrialPlugins::InstanceHandle TrialPlugins::start(Guests& guests, const PluginUse
   handle.kind = use.info.kind;
   Guest& guest = *handle.instance->guest;
   const VariantWorld& shared = variant_.shared();
-  SentWorld& sent_shared = guest.shared_world(shared.view.world(), grids_of(shared, handle.kind));
+  SentWorld& sent_shared = guest.shared_world(shared.world_for(handle.kind), grids_of(shared, handle.kind));
   handle.world = &shared == &variant_
                      ? &sent_shared
-                     : &guest.own_world(variant_.view.world(), sent_shared, grids_of(variant_, handle.kind));
+                     : &guest.own_world(variant_.world_for(handle.kind), sent_shared, grids_of(variant_, handle.kind));
   Arena& arena = guest.begin();
   const SentScene scene = guest.scene(sent_shared, shared.walking_grids->known());
   const StartInput* const input =

@@ -69,6 +69,14 @@ void jitter_starts(const ScenarioVariant& variant, const core::StaticGeometry& g
   }
 }
 
+std::optional<core::WorldView> view_of_points(const VariantWorld& world, std::int64_t call_budget_ns) {
+  if (world.simulation.planning_body == core::PlanningBody::footprint) return std::nullopt;
+  core::RobotTypes points;
+  for (const core::RobotSettings& type : world.types.all()) points.put(core::planning_body_of(type, world.simulation));
+  return core::WorldView(world.scenario, points, world.simulation, *world.geometry, world.planning_grid,
+                         call_budget_ns);
+}
+
 core::Scenario scenario_of_trial(const ScenarioVariant& variant, const VariantWorld& shared, std::uint64_t seed) {
   core::Scenario scenario =
       variant.most_drawn > 0 ? with_drawn_robots(variant, *shared.planning_grids, seed) : variant.scenario;
@@ -84,13 +92,13 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       simulation(with_time_limit(experiment, variant)),
       geometry(std::make_shared<core::StaticGeometry>(scenario)),
       types(variant.types),
-      planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation.grid_resolution_m,
-                                                           simulation.planning_margin_m)),
+      planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation)),
       planning_grid(planning_grids->common(types_in_use(variant))),
       walking_grids(std::make_shared<WalkingGrids>(geometry)),
       routes(
           core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
-      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)),
+      point_view(view_of_points(*this, view.world().call_budget_ns)) {}
 
 VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& variant, const VariantWorld& shared,
                            std::uint64_t seed)
@@ -103,7 +111,13 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       planning_grid(shared.planning_grid),
       walking_grids(shared.walking_grids),
       routes(shared.routes),
-      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)) {}
+      view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)),
+      point_view(view_of_points(*this, view.world().call_budget_ns)) {}
+
+bool VariantWorld::sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const {
+  const bool is_point = simulation.planning_body == core::PlanningBody::point;
+  return geometry->sweep_is_free(from, to, is_point ? simulation.planning_margin_m : radius_m);
+}
 
 std::string task_hash(const core::Scenario& scenario) {
   std::string places;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/people/flow_routes.hpp"
 #include "core/scene/planning_grids.hpp"
@@ -39,6 +40,15 @@ struct VariantWorld {
   std::shared_ptr<WalkingGrids> walking_grids;
   core::FlowRoutes routes;  // of the people
   core::WorldView view;
+  std::optional<core::WorldView> point_view;  // with the bodies that planners plan for, if these are points
+
+  // As plugins of a kind see it.
+  const dmrp_world& world_for(std::uint32_t kind) const {
+    return kind == DMRP_KIND_GLOBAL_PLANNER && point_view ? point_view->world() : view.world();
+  }
+
+  // Whether a planning body of this radius keeps clear of walls on its way.
+  bool sweep_is_free(dmrp_vec2 from, dmrp_vec2 to, double radius_m) const;
 };
 
 // 16 hexadecimal digits that tell the starts and goals of a scenario's robots from others. "" without robots.

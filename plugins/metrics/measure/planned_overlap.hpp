@@ -48,15 +48,16 @@ inline bool overlaps(const Steps& own, std::size_t i, const Steps& other, double
   return false;
 }
 
-// By robot: the share of its waypoints that another robot's path overlaps.
-inline std::vector<double> overlapping_shares(const std::vector<Steps>& all, double distance_m, std::size_t window) {
+// By robot: the share of its waypoints that another robot's path overlaps. `distance_m(a, b)`: of two robots that do.
+template <class Distance>
+std::vector<double> overlapping_shares(const std::vector<Steps>& all, Distance distance_m, std::size_t window) {
   std::vector<double> shares;
   for (std::size_t robot = 0; robot < all.size(); ++robot) {
     std::size_t overlapping = 0;
     for (std::size_t i = 0; i < all[robot].size(); ++i) {
       bool near = false;
       for (std::size_t other = 0; other < all.size() && !near; ++other)
-        near = other != robot && overlaps(all[robot], i, all[other], distance_m, window);
+        near = other != robot && overlaps(all[robot], i, all[other], distance_m(robot, other), window);
       overlapping += near;
     }
     shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));

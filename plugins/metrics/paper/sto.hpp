@@ -42,9 +42,13 @@ class Sto final : public FirstPlanMetric {
       throw std::invalid_argument("STO needs a plan with a step duration above 0");
     const auto all = has_paths() ? resample_all(first_plan_, first_plan_->step_duration_ns) : std::vector<Steps>();
     const auto steps = static_cast<std::size_t>(*window);
-    give(sink, "sto", &mean_of_defined, overlapping_shares(all, distance_m, steps));
+    const auto shares = [&](double threshold_m) {
+      return overlapping_shares(
+          all, [=](std::size_t, std::size_t) { return threshold_m; }, steps);
+    };
+    give(sink, "sto", &mean_of_defined, shares(distance_m));
     give_curve(sink, "sto_by_distance", distances_m,
-               [&](double threshold_m) { return mean_of_defined(overlapping_shares(all, threshold_m, steps)); });
+               [&](double threshold_m) { return mean_of_defined(shares(threshold_m)); });
     sink.system("sto_cell_size", has_paths() ? world().planning_grid().resolution_m : undefined);
   }
 };

@@ -37,7 +37,7 @@ typedef struct dmrp_observation {
   dmrp_pose pose;       // estimated
   dmrp_twist velocity;  // measured
   dmrp_twist applied;   // the last command as the host applied it, after clipping
-  // The current goal; where dispatch = "waypoint" the dispatched waypoint on the way there, with the goal's tolerances.
+  // The current goal; where waypoints are dispatched, the one on the way there, with the goal's tolerances.
   const dmrp_goal* goal;
   uint32_t goal_index;
   uint32_t goal_count;  // of the goals known so far

@@ -50,7 +50,7 @@ TEST_CASE("whatever is asked first, the distances to a goal are those of the sho
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Stream random(seed, "goal_distances");
     const auto geometry = geometry_of(with_boxes(random));
-    const PlanningGrids grids(*geometry, RobotTypes(RobotSettings{}), 1.0, 0.1);
+    const PlanningGrids grids(*geometry, RobotTypes(RobotSettings{}), {});
     const dmrp_grid view = grids.of(RobotSettings{}.type).view();
     const toolkit::GridView grid(view);
     const dmrp_vec2 goal = {random.uniform(1.0, 39.0), random.uniform(1.0, 29.0)};
@@ -76,7 +76,7 @@ TEST_CASE("whatever is asked first, the distances to a goal are those of the sho
 
 TEST_CASE("a way that comes nearer gains what is driven, whatever its direction") {
   const auto geometry = geometry_of(empty_scenario(40, 30));
-  const PlanningGrids grids(*geometry, RobotTypes(RobotSettings{}), 1.0, 0.1);
+  const PlanningGrids grids(*geometry, RobotTypes(RobotSettings{}), {});
   const dmrp_grid view = grids.of(RobotSettings{}.type).view();
   for (double heading = 0.0; heading < 1.6; heading += 0.1) {
     const dmrp_vec2 goal = {5.0, 5.0};

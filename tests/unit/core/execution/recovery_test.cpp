@@ -53,7 +53,7 @@ struct Trial {
   Trial(const Scenario& scenario, const RobotSettings& type, const SimulationSettings& settings,
         bool has_costmap = true)
       : geometry(geometry_of(scenario)),
-        grids(*geometry, RobotTypes(type), 1.0, 0.1),
+        grids(*geometry, RobotTypes(type), {}),
         world(scenario, type, settings, geometry, 1),
         referee(world, grids, {}, 1),
         courses(world.robots().size()),

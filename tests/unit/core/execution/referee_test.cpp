@@ -82,7 +82,7 @@ struct Match {
       : scenario(std::move(of)),
         types(agile()),
         geometry(geometry_of(scenario)),
-        grids(*geometry, types, 1.0, 0.1),
+        grids(*geometry, types, {}),
         world(scenario, types, at_10_hz(time_limit_s), geometry, seed),
         referee(world, grids, settings, seed),
         paths(world.robots().size()),

@@ -20,7 +20,7 @@ PlanningGrid grid_of(const Scenario& scenario) {
 }
 
 PlanningGrids grids_of(const Scenario& scenario) {
-  return PlanningGrids(*geometry_of(scenario), RobotTypes(RobotSettings{}), 1.0, 0.1);
+  return PlanningGrids(*geometry_of(scenario), RobotTypes(RobotSettings{}), {});
 }
 
 // Two halls of 5 x 9 m, joined by a passage of one lane, 3 m long.

@@ -82,7 +82,7 @@ PlanConflicts compare_all_discs(const PlannedPaths& paths, const std::vector<dou
         const double share =
             square > 0 ? std::clamp(-(offset.x * change.x + offset.y * change.y) / square, 0.0, 1.0) : 0.0;
         const double distance_m = std::hypot(offset.x + share * change.x, offset.y + share * change.y);
-        if (distance_m < radii_m[a] + radii_m[b] - 1e-6)
+        if (distance_m < std::max(radii_m[a] + radii_m[b], 1e-3) - 1e-6)
           note(found, fmt::format("robots {} and {} come within {:.3f} m of each other at {:.2f} s", a, b, distance_m,
                                   static_cast<double>(times[i]) * 1e-9));
       }
@@ -160,6 +160,19 @@ TEST_CASE("overlaps of random discs are those that a comparison of all pairs fin
   }
   CHECK(conflicts > 5'000);
   CHECK(without > 300);
+}
+
+TEST_CASE("points that meet are in conflict, and those that pass each other are not") {
+  const auto way = [](dmrp_vec2 from, dmrp_vec2 to) {
+    return std::vector<dmrp_waypoint>{{from.x, from.y, 0.0, 0, 0, 0}, {to.x, to.y, 0.0, 4'000'000'000, 0, 0}};
+  };
+  const auto conflicts = [&](dmrp_vec2 from, dmrp_vec2 to) {
+    return find_disc_conflicts({way({0, 0}, {4, 0}), way(from, to)}, {0.0, 0.0}).count;
+  };
+  CHECK(conflicts({2, -2}, {2, 2}) == 1);         // they cross at 2 s
+  CHECK(conflicts({4, 0}, {0, 0}) == 1);          // head-on
+  CHECK(conflicts({2, -2.01}, {2, 1.99}) == 0);   // 1 cm later
+  CHECK(conflicts({0, 0.002}, {4, 0.002}) == 0);  // side by side
 }
 
 TEST_CASE("plans without robots have no conflicts") {

@@ -78,11 +78,20 @@ TEST_CASE("a legend explains what is shown", "[terminal]") {
   layout.columns[2].legend = "of a metric that was not measured";
   const auto metrics = example_metrics();
   const auto summaries = summarise(metrics, two_planners(), {});
-  CHECK(table_legend(layout, metrics, met_by_all(two_planners()), {}, {}) ==
+  CHECK(table_legend(layout, metrics, summaries, met_by_all(two_planners()), {}, {}) ==
         "  means over 2 drawn tasks · speed: mean over time · ±: deviation over time\n");
-  CHECK(table_legend(layout, metrics, met_by_all(two_planners()), two_marks(), {36, false}) ==
+  CHECK(table_legend(layout, metrics, summaries, met_by_all(two_planners()), two_marks(), {36, false}) ==
         "  means over 2 drawn tasks · speed:\n    mean over time · ±: deviation\n    over time · *: better than all\n  "
         "  others\n");
+}
+
+TEST_CASE("a legend names the values of another metric", "[terminal]") {
+  auto layout = example_layout();
+  layout.columns[3].legend = "after {time} of driving";
+  const auto metrics = example_metrics();
+  const auto summaries = summarise(metrics, two_planners(), {});
+  CHECK_THAT(table_legend(layout, metrics, summaries, met_by_all(two_planners()), {}, {}),
+             Catch::Contains("speed: after 41.8, 51 s of driving ·"));
 }
 
 TEST_CASE("shares have their intervals, from two observations on", "[terminal]") {

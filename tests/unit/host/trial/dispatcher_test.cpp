@@ -9,6 +9,7 @@
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -134,6 +135,30 @@ TEST_CASE("a controller gets waypoints one at a time, without waits, and does no
   }
   CHECK(next == 4);
   CHECK(progress_m == Approx(3.3).margin(0.2));
+}
+
+TEST_CASE("in lockstep robots get their next waypoints together, when all are at theirs") {
+  Stage stage(lanes({4.5, 7.5, 3.5}));
+  stage.experiment.simulation.dispatch = core::Dispatch::lockstep;
+  Stage::set(stage.experiment.local_controllers[0], "by_waypoint");
+  if (GENERATE(false, true)) Stage::set(stage.experiment.local_controllers[0], "dawdles");
+  CHECK(stage.run());
+  std::map<std::int64_t, std::vector<std::uint32_t>> sent;  // robots by time
+  for (const core::TraceNote& note : stage.reader->notes()) sent[note.t_ns].push_back(note.source.robot);
+  // three moves, six, and two; all wait for two steps at the beginning, which takes no time
+  REQUIRE(sent.size() == 6);
+  std::size_t step = 0;
+  for (const auto& [t_ns, robots] : sent) {
+    CHECK(robots.size() == (step < 2 ? 3u : step == 2 ? 2u : 1u));
+    ++step;
+  }
+  while (const dmrp_sample* sample = stage.reader->next_sample()) {
+    const auto next = sent.lower_bound(sample->t_ns);
+    if (next == sent.end() || next->first != sample->t_ns || next == sent.begin()) continue;
+    const auto moves = std::distance(sent.begin(), next);
+    for (const std::uint32_t robot : next->second)
+      CHECK(robot_of(*sample, robot).pose.x == Approx(1.5 + static_cast<double>(moves)).margin(0.2));
+  }
 }
 
 TEST_CASE("on a tour a robot arrives at each goal before it gets the next waypoint") {

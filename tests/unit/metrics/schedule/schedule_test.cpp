@@ -52,13 +52,13 @@ TEST_CASE("overlap in seconds: two robots that cross") {
   // one through the other's way at right angles, both at the origin after 2 s, 1 m/s
   SyntheticTrial trial(2);
   trial.plan({{{-2, 0}, {-1, 0}, {0, 0}, {1, 0}, {2, 0}}, {{0, -2}, {0, -1}, {0, 0}, {0, 1}, {0, 2}}}).end(0.0);
-  // positions every 0.25 s, 17 of each; at the same time they are sqrt(2) |t - 2| apart: within 0.5 m for |t - 2| <= 0.35
+  // positions every 0.2 s, 21 of each; robots of radius 0.25 m; at the same time they are sqrt(2) |t - 2| apart: within 0.5 m for |t - 2| <= 0.35
   const Measurement at_once = measure("dmrp.metric.sto_physical", trial, {{"window_s", 0.0}});
-  CHECK(at_once.system("sto_physical") == Approx(3.0 / 17.0));
+  CHECK(at_once.system("sto_physical") == Approx(3.0 / 21.0));
   // with a second to either side, the other one is at the origin for 1 <= t <= 3, half a metre off it at most half a
   // second longer: within 0.5 m for |t - 2| <= 0.5
   const Measurement in_window = measure("dmrp.metric.sto_physical", trial, {{"window_s", 1.0}});
-  CHECK(in_window.system("sto_physical") == Approx(5.0 / 17.0));
+  CHECK(in_window.system("sto_physical") == Approx(5.0 / 21.0));
 }
 
 TEST_CASE("overlap in seconds: the same motion in larger steps has the same value") {
@@ -70,7 +70,7 @@ TEST_CASE("overlap in seconds: the same motion in larger steps has the same valu
       north.push_back(waypoint(4, t_s + 1.0, t_s));
     }
     trial.timed_plan({east, north}).end(0.0);
-    return measure("dmrp.metric.sto_physical", trial).system("sto_physical");
+    return measure("dmrp.metric.sto_physical", trial, {{"window_s", 1.0}}).system("sto_physical");
   };
   CHECK(value(1.0) == value(2.0));
   CHECK(value(1.0) == value(4.0));
@@ -83,8 +83,8 @@ TEST_CASE("overlap in seconds: robots rest at their goals, and without a plan th
   trial.plan({{{0, 0}, {1, 0}}, {{1.4, 4}, {1.4, 3}, {1.4, 2}, {1.4, 1}, {1.4, 0}}}).end(0.0);
   const Measurement m = measure("dmrp.metric.sto_physical", trial, {{"window_s", 0.0}});
   CHECK(m.robot("sto_physical", 0) == Approx(0.0));
-  // from y = 0.3 on: of 17 positions, y = 0.25 and y = 0
-  CHECK(m.robot("sto_physical", 1) == Approx(2.0 / 17.0));
+  // from y = 0.3 on: of 21 positions, y = 0.2 and y = 0
+  CHECK(m.robot("sto_physical", 1) == Approx(2.0 / 21.0));
   SyntheticTrial without(1);
   without.sample(0.0, {at(0, 0)}).end(0.0, {never});
   CHECK(std::isnan(measure("dmrp.metric.sto_physical", without).system("sto_physical")));
