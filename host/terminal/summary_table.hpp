@@ -29,7 +29,7 @@ std::string summary_table(const SummaryLayout& layout, std::span<const MetricCol
 // The number of tasks, and what the headers and signs of that table stand for, in lines of at most style.width columns
 // (0: one line).
 std::string table_legend(const SummaryLayout& layout, std::span<const MetricColumn> metrics,
-                         std::span<const CombinationSummary> summaries, const Met& met,
-                         std::span<const BestMark> marks, const TableStyle& style);
+                         std::span<const CombinationSummary> summaries, const Met& met, std::span<const BestMark> marks,
+                         const TableStyle& style);
 
 }  // namespace dmrp::host
