@@ -54,6 +54,13 @@ def test_every_number_equals_the_dump(run: dmrp.Run, tmp_path: Path) -> None:
         assert len(read.poses()) == read.robots.size
 
 
+def test_every_number_of_a_thousand_people_equals_the_dump(tmp_path: Path) -> None:
+    hospital = dmrp.use("hospital", people=1000)
+    crowd = small_experiment(scenario=[hospital], trials=1, simulation={"time_limit_s": 1.0}).run(tmp_path / "run", jobs=1)
+    read = check_against_dump(crowd.trial(0).trace.path)
+    assert len(read.elements("people")[1]) == 1000 * len(read.t_ns) > 0
+
+
 def test_a_cut_file_gives_what_is_whole(trace_file: Path, tmp_path: Path) -> None:
     whole = trace.read(trace_file)
     data = trace_file.read_bytes()
