@@ -12,7 +12,7 @@ from typing import Any
 import dmrp
 import numpy as np
 import pytest
-from conftest import small_experiment
+from conftest import BRIEF, small_experiment
 from dmrp import mcap, trace
 from dmrp.fields import Elements, FieldList, array_of
 
@@ -47,7 +47,7 @@ def same(value: int | float, word: str) -> bool:
 
 def test_every_number_equals_the_dump(run: dmrp.Run, tmp_path: Path) -> None:
     scenarios = [dmrp.use("warehouse"), dmrp.use("office")]
-    others = small_experiment(scenario=scenarios, trials=1).run(tmp_path / "run", jobs=1)
+    others = small_experiment(scenario=scenarios, trials=1, simulation=BRIEF).run(tmp_path / "run", jobs=1)
     for trial in (run.trial(0), others.trial(0), others.trial(1)):
         read = check_against_dump(trial.trace.path)
         assert read.is_whole and len(read.plans) >= 1
