@@ -27,7 +27,7 @@ std::map<TraceRecordKind, std::vector<Field>> read_list() {
                                         {"u64", {8}}, {"i32", {4}}, {"i64", {8}},
                                         {"f32", {4}}, {"f64", {8}}, {"clock", {clock_bytes, {0}}}};
   std::map<TraceRecordKind, std::vector<Field>> records;
-  std::istringstream list(trace_schema);
+  std::istringstream list(trace_schema());
   for (std::string name, head, field; std::getline(list, head, ':');) {
     std::istringstream words(head);
     int kind = 0;  // of what is no record

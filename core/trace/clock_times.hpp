@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// clock_times.hpp: what clocks measured in the records of a trace, by the list of fields in trace_schema.hpp.
+// clock_times.hpp: what clocks measured in the records of a trace, by the list of fields of the schema.
 #pragma once
 
 #include <cstdint>

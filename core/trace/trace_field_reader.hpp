@@ -37,45 +37,47 @@ inline constexpr std::size_t least_trace_bytes<dmrp_statistic> = 12;
 template <>
 inline constexpr std::size_t least_trace_bytes<TraceRoute> = 16 + 8;
 
-// All functions throw TraceError.
+// All functions throw TraceError. It needs no names of fields.
 class TraceFieldReader {
  public:
   // Without a storage it passes over arrays and texts, which stay empty; for records that have no structs in arrays.
   TraceFieldReader(RecordCursor& in, TraceStorage* storage) : in_(in), storage_(storage) {}
 
   template <class... Values>
-  void values(Values&... values) {
+  void values(const char*, Values&... values) {
     ((values = in_.take<Values>()), ...);
   }
+  void clock(const char*, std::int64_t& value) { value = in_.take<std::int64_t>(); }
 
-  void text(const char*& to) {
+  void text(const char*, const char*& to) {
     const std::string_view text = in_.take_text();
     if (!storage_) return;
     char* copy = allocate<char>(text.size() + 1);
     std::copy(text.begin(), text.end(), copy);
     to = copy;
   }
-  void text(std::string_view& to) {
+  void text(const char* name, std::string_view& to) {
     const char* copy = "";
-    text(copy);
+    text(name, copy);
     to = copy;
   }
 
   template <class Value>
-  void array(const Value*& to, std::uint32_t& count) {
+  void array(const char*, const Value*& to, std::uint32_t& count) {
     count = in_.take_count(sizeof(Value));
     take_array(to, count);
   }
   template <class Value>
-  void array(std::span<const Value>& to) {
+  void array(const char* name, std::span<const Value>& to) {
     const Value* values = nullptr;
     std::uint32_t count = 0;
-    array(values, count);
+    array(name, values, count);
     if (storage_) to = {values, count};
   }
   template <class Value>
-  void optional_array(const Value*& to, std::size_t count) {
+  void optional_array(const char*, const Value*& to, auto... factors) {
     if (!is_present()) return;
+    const std::size_t count = (std::size_t{1} * ... * factors);
     in_.require(count, sizeof(Value));
     take_array(to, count);
   }
@@ -83,7 +85,7 @@ class TraceFieldReader {
   // Elements that are stored as in memory. Fields that the trace does not have become absent_fields; fields that it has
   // beyond ours are skipped.
   template <class Element>
-  void elements(const Element*& to, std::uint32_t& count, std::uint32_t& to_stride) {
+  void elements(const char*, const Element*& to, std::uint32_t& count, std::uint32_t& to_stride) {
     count = in_.take<std::uint32_t>();
     to_stride = sizeof(Element);
     const std::size_t stride = in_.take<std::uint32_t>();
@@ -96,17 +98,17 @@ class TraceFieldReader {
   }
 
   template <class Struct>
-  void pointer(const Struct*& to) {
+  void pointer(const char*, const Struct*& to) {
     Struct* made = allocate<Struct>(1);
     to = made;
     block(*made);
   }
   template <class Struct>
-  void optional_pointer(const Struct*& to) {
-    if (is_present()) pointer(to);
+  void optional_pointer(const char* name, const Struct*& to) {
+    if (is_present()) pointer(name, to);
   }
   template <class Struct>
-  void structs(const Struct*& to, std::uint32_t& count, std::uint32_t& stride) {
+  void structs(const char*, const Struct*& to, std::uint32_t& count, std::uint32_t& stride) {
     count = in_.take_count(least_trace_bytes<Struct>);
     stride = sizeof(Struct);
     Struct* made = allocate<Struct>(count);

@@ -106,9 +106,13 @@ class Ways:
         self.lower = np.array(world.lower)
         self.shape = np.ceil((world.upper - world.lower) / CELL_M).astype(int)  # columns, rows
         self.centers = np.moveaxis(np.indices(self.shape), 0, 2) * CELL_M + self.lower + CELL_M / 2
-        walls = np.array(world.segments)
-        clearance = [from_walls(column, walls)[1].min(axis=1, initial=np.inf) for column in self.centers]
-        self.is_walkable = np.array(clearance) >= world.person_radius_m
+        self.is_walkable = np.ones(self.shape, bool)
+        for wall in np.array(world.segments).reshape(-1, 2, 2):
+            reach = np.array((wall.min(axis=0) - world.person_radius_m, wall.max(axis=0) + world.person_radius_m))
+            first, last = np.clip(((reach - self.lower) / CELL_M).astype(int), 0, self.shape)
+            about = slice(first[0], last[0] + 1), slice(first[1], last[1] + 1)
+            _, far_m = from_walls(self.centers[about].reshape(-1, 2), wall.reshape(1, 4))
+            self.is_walkable[about] &= (far_m >= world.person_radius_m).reshape(self.is_walkable[about].shape)
         self.fields = {}
 
     def directions(self, people):
@@ -140,7 +144,7 @@ class Ways:
         for is_allowed, cost_m in ((self.is_walkable, CELL_M), (~self.is_walkable, 10.0 * CELL_M)):
             is_done = False
             while not is_done:
-                _, _, x_m, y_m = lower_neighbors(far)
+                x_m, y_m = nearer_neighbors(far)
                 low, high = np.minimum(x_m, y_m), np.maximum(x_m, y_m)
                 high = np.minimum(high, low + cost_m)
                 step = np.where(np.isfinite(low), high - low, 0.0)
@@ -148,13 +152,13 @@ class Ways:
                 shorter = is_allowed & (made < inner - 1e-9)
                 inner[shorter] = made[shorter]
                 is_done = not shorter.any()
-        x_sign, y_sign, x_m, y_m = lower_neighbors(far)
+        x_m, y_m = nearer_neighbors(far)
+        x_sign, y_sign = np.where(far[:-2, 1:-1] < far[2:, 1:-1], -1, 1), np.where(far[1:-1, :-2] < far[1:-1, 2:], -1, 1)
         down = np.stack((x_sign * np.maximum(inner - x_m, 0.0), y_sign * np.maximum(inner - y_m, 0.0)), axis=2)
         down[~np.isfinite(down) | is_there[:, :, None]] = 0.0
         return down / np.maximum(np.hypot(down[:, :, 0], down[:, :, 1]), 1e-9)[:, :, None]
 
 
-def lower_neighbors(far):
-    """On which side, -1 or 1, the nearer neighbour of each cell lies in x and in y, and how far the place is from it."""
-    left, right, down, up = far[:-2, 1:-1], far[2:, 1:-1], far[1:-1, :-2], far[1:-1, 2:]
-    return np.where(left < right, -1, 1), np.where(down < up, -1, 1), np.minimum(left, right), np.minimum(down, up)
+def nearer_neighbors(far):
+    """How far the place is from the nearer neighbour of each cell in x, and in y."""
+    return np.minimum(far[:-2, 1:-1], far[2:, 1:-1]), np.minimum(far[1:-1, :-2], far[1:-1, 2:])

@@ -52,7 +52,7 @@ RunSettings::RunSettings(std::string_view effective_toml, std::span<const TrialR
       const toml::table* use = uses->get(i)->as_table();
       if (!use) continue;
       Values& values = plugins_[kind][(*use)["label"].value_or(std::string())];
-      values[kind + ".id"] = (*use)["use"].value_or(std::string());
+      values[kind + ".id"] = (*use)["use"].value_or(std::string("file"));  // plans of one, not of a plugin
       add_name(kind + ".id");
       if (const toml::table* params = (*use)["params"].as_table())
         flatten(kind, *params, [&](const std::string& name, const std::string& value) {

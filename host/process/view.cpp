@@ -36,8 +36,10 @@ constexpr const char* scratch_size = "size=64m,nr_inodes=4096,mode=700";
 
 // What plugins of any origin need: programs, libraries, interpreters.
 constexpr std::array system_paths = {
-    "/usr",    "/bin", "/sbin",      "/lib",       "/lib32",           "/lib64",
-    "/libx32", "/opt", "/nix/store", "/gnu/store", "/etc/ld.so.cache", "/etc/alternatives"};
+    "/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt", "/nix/store", "/gnu/store",
+    "/etc/ld.so.cache", "/etc/alternatives",
+    // which processors there are: libraries choose their code by it, and some refuse to run without
+    "/proc/cpuinfo", "/sys/devices/system/cpu"};
 constexpr std::array devices = {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom"};
 
 // It is that of <linux/mount.h>, which older C libraries' <sys/mount.h> excludes.

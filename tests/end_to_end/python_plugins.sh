@@ -17,18 +17,17 @@ grep -q "look_ahead_m *double = 0.9 m \[0.1 to 5\]" stdout || fail "parameters s
 awk '/^\[\[local_controller/ && ++count == 2 { skip = 1 } /^$/ { skip = 0 } !skip' python_controller.toml |
   sed 's/^trials .*/trials = 1/' >one.toml
 expect_status 0 "$host" one.toml --quiet --jobs 1 --out first
-expect_status 0 "$host" one.toml --quiet --jobs 2 --out second
 [[ $(query first "SELECT count(*), min(repeatable) FROM trial") == "1|1" ]] || fail "a repeatable trial is expected"
 [[ $(query first "SELECT min(value) >= 0.75 FROM value WHERE metric = 'success' AND subject_kind = 'system'") == 1 ]] ||
   fail "the policy should bring its robots to their goals"
-[[ $(values_of first) == "$(values_of second)" ]] || fail "two runs should have the same bits"
 grep -q '"python policy.py": ".*Python 3.*numpy' first/manifest.json || fail "the manifest should name the versions"
 grep -q '"role": "python interpreter"' first/manifest.json || fail "the manifest should name the interpreter"
 
-# the other example
+# the other example, whose model rimea/python runs
 cp "$source_dir"/examples/python_pedestrians/* .
-expect_status 0 "$host" python_pedestrians.toml --quiet --trials 1 --out people
-[[ $(query people "SELECT count(*) FROM trial WHERE outcome <> 'fault'") == 2 ]] || fail "the model in Python should run"
+expect_status 0 "$host" validate python_pedestrians.toml
+
+brief='[simulation]\ntime_limit_s = 10.0\n'
 
 # one experiment with the plugins of this file, in the smallest world
 experiment() {
@@ -72,6 +71,7 @@ grep -q '3 pass, 0 warn, 0 fail, 0 crash' stdout || fail "check should run a who
 for kind in controller planner pedestrian-model metric; do
   expect_status 0 "$host" new "$kind" --python --id org.example.my-own.my-thing "$kind"
   ! grep -rqE 'my_plugin|my_kind' "$kind" || fail "$kind: left from the template"
+  printf "$brief" >>"$kind/my_thing.toml"
   expect_status 0 "$host" "$kind/my_thing.toml" --quiet --trials 1 --out "$kind/run"
   [[ $(query "$kind/run" "SELECT count(*) FROM fault") == 0 ]] || fail "$kind: $(query "$kind/run" "SELECT * FROM fault")"
 done
@@ -79,6 +79,7 @@ done
 # another library where a module beside it has changed
 {
   experiment 1 ./faulty.py
+  printf "$brief"
   others
   printf '[[local_controller]]\nuse = "test.central"\n'
 } >changed.toml
@@ -95,6 +96,7 @@ grep -q "helper.py" stderr || fail "the changed module should be named: $(cat st
 faults=(exception null exit subprocess nan shape dtype write memory)
 {
   experiment 1 ./faulty.py
+  printf "$brief"
   others
   for fault in none "${faults[@]}"; do
     printf '[[local_controller]]\nuse = "test.faulty"\nlabel = "%s"\nparams.fault = "%s"\n' "$fault" "$fault"

@@ -10,8 +10,11 @@ import dmrp
 import pytest
 
 
+BRIEF: dict[str, object] = {"time_limit_s": 10.0}  # where a part of a trial will do
+
+
 def small_experiment(**keys: object) -> dmrp.Experiment:
-    """A crowd in the mall, with a time limit that keeps trials short."""
+    """A crowd in the mall, for about a minute of simulated time."""
     content: dict[str, object] = {
         "seed": 1,
         "trials": 3,

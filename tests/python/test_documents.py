@@ -52,7 +52,7 @@ def test_the_package_installs_and_measures_without_the_host(tmp_path: Path, trac
     assert str(tmp_path / "venv") in found.stdout and "own_sto" in found.stdout
 
 
-@pytest.mark.notebooks
+@pytest.mark.nightly
 @pytest.mark.parametrize("file", sorted((TREE / "docs/notebooks").glob("*.ipynb")), ids=lambda file: file.stem)
 def test_a_notebook_has_the_outputs_that_it_gives(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")

@@ -31,7 +31,7 @@ def sweep(tmp_path_factory: pytest.TempPathFactory) -> dmrp.Run:
             dmrp.use("dmrp.controller.orca", label="ORCA"),
         ],
         pedestrian_model=[dmrp.use("dmrp.pedestrian.social_force")],
-        simulation={"sweep": {"tracking": ["none", "visible"]}},
+        simulation={"time_limit_s": 15.0, "sweep": {"tracking": ["none", "visible"]}},
         record={"traces": "none"},
     )
     return experiment.run(tmp_path_factory.mktemp("runs") / "sweep", jobs=1)

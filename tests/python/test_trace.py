@@ -12,7 +12,7 @@ from typing import Any
 import dmrp
 import numpy as np
 import pytest
-from conftest import small_experiment
+from conftest import BRIEF, small_experiment
 from dmrp import mcap, trace
 from dmrp.fields import Elements, FieldList, array_of
 
@@ -47,11 +47,18 @@ def same(value: int | float, word: str) -> bool:
 
 def test_every_number_equals_the_dump(run: dmrp.Run, tmp_path: Path) -> None:
     scenarios = [dmrp.use("warehouse"), dmrp.use("office")]
-    others = small_experiment(scenario=scenarios, trials=1).run(tmp_path / "run", jobs=1)
+    others = small_experiment(scenario=scenarios, trials=1, simulation=BRIEF).run(tmp_path / "run", jobs=1)
     for trial in (run.trial(0), others.trial(0), others.trial(1)):
         read = check_against_dump(trial.trace.path)
         assert read.is_whole and len(read.plans) >= 1
         assert len(read.poses()) == read.robots.size
+
+
+def test_every_number_of_a_thousand_people_equals_the_dump(tmp_path: Path) -> None:
+    hospital = dmrp.use("hospital", people=1000)
+    crowd = small_experiment(scenario=[hospital], trials=1, simulation={"time_limit_s": 1.0}).run(tmp_path / "run", jobs=1)
+    read = check_against_dump(crowd.trial(0).trace.path)
+    assert len(read.elements("people")[1]) == 1000 * len(read.t_ns) > 0
 
 
 def test_a_cut_file_gives_what_is_whole(trace_file: Path, tmp_path: Path) -> None:

@@ -16,6 +16,9 @@ constexpr const char* effective = R"(
 [[global_planner]]
 use = "org.planner"
 label = "P"
+[[global_planner]]
+file = "/home/ann/plans.csv"
+label = "plans"
 [[local_controller]]
 use = "org.dwa"
 label = "slow"
@@ -63,6 +66,9 @@ TEST_CASE("each trial has the parameters of its plugins and the settings", "[exp
   other.local_controller = "other";
   CHECK(settings.value("local_controller.speed", fast) == "1");
   CHECK(settings.value("local_controller.id", fast) == "org.dwa");
+  CHECK(settings.value("global_planner.id", fast) == "org.planner");
+  other.global_planner = "plans";
+  CHECK(settings.value("global_planner.id", other) == "file");
   CHECK(settings.value("robot.lidar.beams", fast) == "360");
   CHECK(settings.value("local_controller.speed", other).empty());
 

@@ -97,7 +97,9 @@ std::string attempts(const fs::path& root) {
   attempt("program", access("/bin/sh", X_OK) == 0);
   attempt("hidden", fs::exists(root / "hidden"));
   attempt("home", fs::exists("/home") || fs::exists("/root") || fs::exists("/etc/passwd"));
-  attempt("proc", fs::exists("/proc"));
+  attempt("processors", std::ifstream("/proc/cpuinfo").peek() != EOF && fs::exists("/sys/devices/system/cpu/present"));
+  attempt("more of the machine", fs::exists("/proc/self") || fs::exists("/proc/1") || fs::exists("/sys/class"));
+  attempt("change processors", can_write("/sys/devices/system/cpu/cpu1/online"));
   attempt("old", fs::exists("/old"));
   attempt("create", can_write(root / "shown/new"));
   attempt("change", can_write(root / "shown/file"));
@@ -122,8 +124,9 @@ std::string fill() {
 TEST_CASE("a process sees what it was given, and can change nothing but temporary files") {
   if (!view::gap().empty()) return;
   const Places places;
-  CHECK(in_view(places.shown(), [&] { return attempts(places.root); }) == "read read by link temporary null program ");
-  CHECK(in_view({}, [&] { return attempts(places.root); }) == "temporary null program ");
+  CHECK(in_view(places.shown(), [&] { return attempts(places.root); }) ==
+        "read read by link temporary null program processors ");
+  CHECK(in_view({}, [&] { return attempts(places.root); }) == "temporary null program processors ");
   // the files of a folder, and one of a subfolder
   CHECK(in_view({places.root / view::all_files, places.root / "hidden/file"}, [&] {
           std::string seen;
@@ -135,7 +138,8 @@ TEST_CASE("a process sees what it was given, and can change nothing but temporar
           return std::string(std::ifstream(places.root / "experiment.toml").peek() == EOF ? "empty" : "text");
         }) == "text");
   CHECK(in_view({}, &fill) == "full");
-  CHECK(in_view({"/tmp", "/tmp/*", "/"}, [&] { return attempts(places.root); }) == "temporary null program ");
+  CHECK(in_view({"/tmp", "/tmp/*", "/"}, [&] { return attempts(places.root); }) ==
+        "temporary null program processors ");
   CHECK(in_view({}, [] { return std::to_string(getpid()) + " " + fs::current_path().string(); }) == "2 /tmp");
   CHECK(fs::exists(places.root / "hidden/file"));
 }
