@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The paper's experiments: each is valid, and planners have the lengths and overlaps of Table II of the paper (Hu et al.,
+# The experiments of the paper and of dmrp1 are valid, and planners have the lengths and overlaps of Table II of the paper (Hu et al.,
 # ICRA 2026) in mall and office. Called as: paper.sh DMRP_HOST SOURCE_DIR
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 paper=$2/examples/paper
 
-for file in "$paper"/*.toml; do expect_status 0 "$host" validate "$file"; done
+for file in "$paper"/*.toml "$2"/examples/dmrp1/*.toml; do expect_status 0 "$host" validate "$file"; done
 
 expect_status 0 "$host" "$paper/table2.toml" --quiet --trials 1 --out "$scratch/run"
 # of_plan SCENARIO PLANNER METRIC
