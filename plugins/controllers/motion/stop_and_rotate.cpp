@@ -16,6 +16,14 @@ namespace {
 constexpr double reached_fraction = 0.5;
 constexpr double settled_fraction = 0.9;
 
+// Every controller of this folder comes this near to its goal.
+constexpr double near_m = 0.1;
+
+// What is left is driven straight, at this speed at most, and up to this fraction of the goal's tolerance.
+constexpr double last_speed = 0.1;
+constexpr double last_fraction = 0.25;
+constexpr double ahead_rad = 0.2;
+
 // Below these the robot counts as stopped (trans_stopped_vel and rot_stopped_vel upstream).
 constexpr double standing_m_s = 0.02;
 constexpr double standing_rad_s = 0.02;
@@ -44,9 +52,42 @@ Command braking(const Observation& now) {
   return command;
 }
 
+namespace {
+
+double distance_to(const StopPoint& stop, const Observation& now) {
+  return toolkit::distance(toolkit::position(now.pose), stop.position);
+}
+
+bool asks_for_more(const StopPoint& stop, const Observation& now) {
+  return reached_fraction * stop.tolerance_m < near_m && !is_car_like(now.limits);
+}
+
+// Straight to the stop point; a differential drive turns to it first.
+Command drive_to(const StopPoint& stop, const Observation& now) {
+  const double period_s = seconds(now.dt_ns);
+  const Vec2 way = toolkit::rotate(stop.position - toolkit::position(now.pose), -now.pose.theta);
+  const double speed =
+      std::min({last_speed, now.limits.v_max, stopping_speed(toolkit::norm(way), now.limits.a_max, period_s)});
+  Command command = braking(now);
+  if (now.limits.v_y_max > 0.0) {
+    const Vec2 wanted = std::min(speed, now.limits.v_y_max) * toolkit::normalized(way);
+    const Vec2 velocity = toward(Vec2{now.velocity.v_x, now.velocity.v_y}, wanted, now.limits.a_max * period_s);
+    command.v_x = std::max(velocity.x, now.limits.v_min);
+    command.v_y = velocity.y;
+    return command;
+  }
+  const double angle = std::atan2(way.y, way.x);
+  command.omega = turning_rate(angle, now);
+  if (std::abs(angle) < ahead_rad) command.v_x = toward(now.velocity.v_x, speed, now.limits.a_max * period_s);
+  return command;
+}
+
+}  // namespace
+
 bool StopAndRotate::reached(const StopPoint& stop, const Observation& now) {
-  const double distance_m = toolkit::distance(toolkit::position(now.pose), stop.position);
-  if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_m > stop.tolerance_m)) reset();
+  const double released_m = asks_for_more(stop, now) ? 2.0 * near_m : stop.tolerance_m;
+  if (latched_ && (toolkit::distance(latched_at_, stop.position) > 1e-3 || distance_to(stop, now) > released_m))
+    reset();
   return latched_ || latch(stop, now, reached_fraction);
 }
 
@@ -61,12 +102,24 @@ bool StopAndRotate::settles(const StopPoint& stop, const Observation& now) {
 }
 
 bool StopAndRotate::latch(const StopPoint& stop, const Observation& now, double fraction) {
-  latched_ = toolkit::distance(toolkit::position(now.pose), stop.position) <= fraction * stop.tolerance_m;
+  const double near_enough_m = fraction * stop.tolerance_m;
+  latched_ = distance_to(stop, now) <= (asks_for_more(stop, now) ? std::max(near_enough_m, near_m) : near_enough_m);
   latched_at_ = stop.position;
   return latched_;
 }
 
+// Comes nearer than needed once it has begun: a turn in place moves the robot a little.
+bool StopAndRotate::approaches(const StopPoint& stop, const Observation& now) {
+  const double fraction = approaching_ ? last_fraction : reached_fraction;
+  approaching_ = asks_for_more(stop, now) && distance_to(stop, now) > fraction * stop.tolerance_m;
+  return approaching_;
+}
+
 Command StopAndRotate::command(const StopPoint& stop, const Observation& now) {
+  if (approaches(stop, now)) {
+    turning_ = false;
+    return drive_to(stop, now);
+  }
   const double angle = std::isnan(stop.heading) ? 0.0 : toolkit::difference(now.pose.theta, stop.heading);
   // stops turning at half the tolerance and starts again only above three quarters of it
   if (std::abs(angle) <= 0.5 * stop.tolerance_rad || std::isnan(stop.heading))

@@ -68,8 +68,9 @@ Status OrcaController::control(const Observation& now, Command& command) {
   const std::size_t hard_count = planes_.size();
   add_agents(now, margin_m);
   const double fastest = holonomic_ ? std::hypot(now.limits.v_max, now.limits.v_y_max) : now.limits.v_max;
-  const Vec2 velocity = program_.solve(planes_, hard_count, fastest, preferred(now));
-  command = holonomic_ ? translate(now, velocity) : follow(now, velocity);
+  const Vec2 wanted = preferred(now);
+  const Vec2 velocity = program_.solve(planes_, hard_count, fastest, wanted);
+  command = holonomic_ ? translate(now, velocity) : follow(now, velocity, wanted);
   annotations_.arc(now.pose, command, time_horizon_obst);
   return Status::ok;
 }
@@ -165,11 +166,15 @@ orca::Follower OrcaController::follower(const Observation& now) const {
   return {now.limits.v_max, now.limits.omega_max, now.limits.alpha_max, alignment_time};
 }
 
-Command OrcaController::follow(const Observation& now, Vec2 velocity) const {
+// Straight behind, rounding would choose the side to turn to, another one at each tick: it is that of what is wanted.
+Command OrcaController::follow(const Observation& now, Vec2 velocity, Vec2 wanted) const {
+  constexpr double behind_rad = 1e-3;
   const double period_s = seconds(now.dt_ns);
   const double speed = toolkit::norm(velocity);
   if (speed < 1e-6) return braking(now);
-  const double angle = toolkit::difference(now.pose.theta, std::atan2(velocity.y, velocity.x));
+  double angle = toolkit::difference(now.pose.theta, std::atan2(velocity.y, velocity.x));
+  if (std::abs(angle) > toolkit::pi - behind_rad)
+    angle = std::copysign(angle, toolkit::difference(now.pose.theta, std::atan2(wanted.y, wanted.x)));
   Command command;
   command.v_x = std::clamp(toward(now.velocity.v_x, orca::arc_speed(speed, angle), now.limits.a_max * period_s), 0.0,
                            now.limits.v_max);

@@ -53,7 +53,7 @@ class OrcaController final : public PathController {
   void add_agents(const Observation& now, double margin_m);
   orca::Follower follower(const Observation& now) const;
   Vec2 preferred(const Observation& now) const;
-  Command follow(const Observation& now, Vec2 velocity) const;
+  Command follow(const Observation& now, Vec2 velocity, Vec2 wanted) const;
   Command translate(const Observation& now, Vec2 velocity) const;
 
   bool holonomic_ = false;

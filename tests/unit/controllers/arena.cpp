@@ -116,7 +116,7 @@ void Trip::start() {
   update_ = 0;
   observation_ = {};
   goal_.pose = {course_.path.back().x, course_.path.back().y, course_.goal_heading};
-  goal_.tolerance_m = 0.2;
+  goal_.tolerance_m = course_.goal_tolerance_m;
   goal_.tolerance_rad = 0.2;
   goal_.tolerance_speed = 0.1;
   goal_.settle_ns = 500'000'000;

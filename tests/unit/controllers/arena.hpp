@@ -52,6 +52,7 @@ struct Course {
   std::vector<dmrp_vec2> path;  // the goal is its end
   dmrp_pose start = {0.0, 0.0, 0.0};
   double goal_heading = NAN;
+  double goal_tolerance_m = 0.2;
   double time_limit_s = 120.0;
   bool tracking = true;  // walkers whose centres the robot sees within 10 m are agents of the observation
   Sight sight = Sight::everywhere;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 
+#include "tests/support/draws.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 namespace behaviour_test {
@@ -73,6 +74,39 @@ TEST_CASE("A start that faces away turns in place") {
   check_arrives(drive, 18.0);
   // MPPI, whose samples drive forward alone, moves by 0.1 m meanwhile
   for (const dmrp_pose& pose : drive.poses) REQUIRE(pose.x > -0.15);
+}
+
+TEST_CASE("A start before a wall that faces any way") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {4.0, 0.0}});
+  course.boxes = {{{-0.7, -4.0}, {-0.5, 4.0}}};
+  constexpr int headings = draws(64);
+  for (int i = 0; i < headings; ++i) {
+    course.start.theta = dmrp::toolkit::pi * (2.0 * i / headings - 1.0) + 0.02;
+    CAPTURE(course.start.theta);
+    check_arrives(run(controller, course), 20.0);
+  }
+}
+
+TEST_CASE("A goal that is to be met to the centimetre, and whose heading") {
+  const Controller controller = GENERATE(from_range(all_controllers()));
+  CAPTURE(controller);
+  Course course;
+  course.path = metre_path({{0.0, 0.0}, {3.0, 0.0}});
+#ifdef DMRP_FEWER_DRAWS
+  const std::vector<double> tolerances_m = {0.05};
+#else
+  const std::vector<double> tolerances_m = {0.02, 0.05, 0.1, 0.15, 0.2};
+#endif
+  for (const double tolerance_m : tolerances_m)
+    for (const double heading : {double(NAN), 0.0, 1.5, 2.0, -3.0}) {
+      course.goal_tolerance_m = tolerance_m;
+      course.goal_heading = heading;
+      CAPTURE(tolerance_m, heading);
+      check_arrives(run(controller, course), 20.0);
+    }
 }
 
 TEST_CASE("A goal right before a wall is reached without touching it") {
