@@ -399,7 +399,11 @@ void ResultsDatabase::write(const TrialRecord& trial) {
 }
 
 void ResultsDatabase::finish() {
-  connection_.execute("PRAGMA journal_mode = DELETE");
+  try {
+    connection_.execute("PRAGMA journal_mode = DELETE");
+  } catch (const SqliteError&) {
+    // somebody reads it: the log stays, and belongs to it
+  }
 }
 
 void ResultsDatabase::add_fault(std::uint64_t trial, const FaultRecord& fault) {

@@ -75,7 +75,6 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, SqliteMode
   sqlite3_db_config(connection, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   execute("PRAGMA cell_size_check = ON");
   execute("PRAGMA mmap_size = 0");
-  if (mode != SqliteMode::read_only) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
 bool SqliteConnection::has_moved() const {

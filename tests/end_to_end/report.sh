@@ -14,6 +14,19 @@ cmp "$scratch/before.html" "$run/report.html" || fail "the same results give a d
 grep -q "dmrp:" <(grep -E "^<!-- dmrp:(styles|data|scripts) -->$" "$run/report.html") && fail "a placeholder remains"
 grep -Eq '<(script|img|iframe)[^>]* src=|<link[^>]* href="(http|/)' "$run/report.html" && fail "the page fetches something"
 
+# a run that goes on is read: what is finished makes a page, and the run ends as it would
+"$host" "$here/crossing.toml" --trials 60 --quiet --out "$scratch/live" &
+live=$!
+until [[ $(sqlite3 -batch "$scratch/live/results.sqlite" "SELECT count(*) FROM trial" 2>"$scratch/not_yet") -ge 2 ]]; do
+  kill -0 $live || fail "the run ended before it was read: $(cat "$scratch/not_yet")"
+  sleep 0.1
+done
+expect_status 0 "$host" report "$scratch/live"
+grep -Eq '"trials_planned":240,"trials_finished":([2-9]|[1-9][0-9]+),' "$scratch/live/report.html" ||
+  fail "the page of a run that goes on does not count its trials"
+kill -INT $live
+wait $live
+
 # results for programs
 expect_status 0 "$host" "$here/crossing.toml" --trials 1 --json --out "$scratch/json"
 [[ $(head -c 1 "$scratch/stdout") == "{" && ! -s $scratch/stderr ]] || fail "--json prints something else"
