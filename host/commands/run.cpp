@@ -102,6 +102,12 @@ std::string fault_note(std::uint64_t trial, const FaultRecord& fault) {
   return note + ": " + fault.detail;
 }
 
+// What a trial ran, for the progress.
+std::string place_of(const TrialRecord& trial) {
+  if (trial.global_planner.empty()) return trial.scenario;
+  return fmt::format("{} · {} + {}", trial.scenario, trial.global_planner, trial.local_controller);
+}
+
 // "" if the trial has none.
 std::string fault_note(const TrialRecord& trial) {
   return trial.faults.empty() ? "" : fault_note(trial.id, trial.faults.front());
@@ -244,10 +250,11 @@ int run_command(const RunOptions& options) {
   ProgressLines lines(!options.progress.empty(), trials.left());
   lines.begin(files.directory());
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
+  const bool is_one = combinations(experiment).size() == 1;
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
                                    database.write(trial);
                                    lines.add(trial.id, trial.outcome);
-                                   progress.add(fault_note(trial));
+                                   progress.add(fault_note(trial), is_one ? "" : place_of(trial));
                                  },
                                  [&](std::uint64_t trial, const FaultRecord& fault) {
                                    database.add_fault(trial, fault);

@@ -59,7 +59,7 @@ bool has_room_beside_bar(const std::string& heading, std::uint64_t total, std::s
 }
 
 std::string progress_line(const std::string& heading, std::uint64_t done, std::uint64_t total, double elapsed_s,
-                          std::size_t width) {
+                          std::size_t width, const std::string& at) {
   const double share = total ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
   const auto full = static_cast<unsigned>(share * bar_cells + 0.5);
   std::string bar;
@@ -69,7 +69,9 @@ std::string progress_line(const std::string& heading, std::uint64_t done, std::u
   if (done > 0 && done < total)
     times +=
         fmt::format(", {} to go", duration(elapsed_s / static_cast<double>(done) * static_cast<double>(total - done)));
-  const std::string line = fmt::format("{} {}{}", bar, count, times);
+  std::string line = fmt::format("{} {}{}", bar, count, times);
+  if (const std::string longer = line + "  " + at; !at.empty() && display_width(heading + longer) + 2 <= width)
+    line = longer;
   const std::size_t used = display_width(heading) + display_width(line);
   if (!heading.empty() && used + 2 <= width)
     return heading + std::string(std::min<std::size_t>(width - used, 24), ' ') + line;
@@ -97,7 +99,7 @@ double Progress::elapsed_s() const {
 }
 
 void Progress::draw() const {
-  show("\r\x1b[2K" + progress_line(heading_, done_, total_, elapsed_s(), usable_width()));
+  show("\r\x1b[2K" + progress_line(heading_, done_, total_, elapsed_s(), usable_width(), at_));
   std::fflush(stdout);
 }
 
@@ -111,12 +113,13 @@ void Progress::note(const std::string& line) {
   if (!quiet_) show((terminal_ ? "\r\x1b[2K" : "  ") + line + "\n");
 }
 
-void Progress::add(const std::string& text) {
+void Progress::add(const std::string& text, const std::string& at) {
   ++done_;
+  at_ = done_ < total_ ? at : "";
   if (quiet_) return;
   if (!text.empty()) note(text);
   if (terminal_) return draw();
-  show(fmt::format("  {}/{}  {}\n", done_, total_, duration(elapsed_s())));
+  show(fmt::format("  {}/{}  {}{}{}\n", done_, total_, duration(elapsed_s()), at.empty() ? "" : "  ", at));
   std::fflush(stdout);
 }
 

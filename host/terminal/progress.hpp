@@ -16,8 +16,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Counts a finished trial. `text`: for note(), or "".
-  void add(const std::string& text);
+  // Counts a finished trial. `text`: for note(), or "". `at`: where the run is, shown behind the times; or "".
+  void add(const std::string& text, const std::string& at);
 
   // Prints a line above the bar.
   void note(const std::string& line);
@@ -33,6 +33,7 @@ class Progress {
   double elapsed_s() const;
 
   std::string heading_;  // beside the bar
+  std::string at_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
   bool quiet_;
@@ -45,9 +46,9 @@ class Progress {
 bool has_room_beside_bar(const std::string& heading, std::uint64_t total, std::size_t width);
 
 // The bar with its count and times, behind the heading if there is room, of at most `width` columns: a narrow terminal
-// gets no heading, then no bar.
+// gets no heading, then no bar. `at` stands behind the times, if there is room.
 std::string progress_line(const std::string& heading, std::uint64_t done, std::uint64_t total, double elapsed_s,
-                          std::size_t width);
+                          std::size_t width, const std::string& at = "");
 
 // Columns of the terminal at standard output; 0 if it is no terminal.
 unsigned terminal_width();

@@ -30,6 +30,9 @@ TEST_CASE("at 80 columns the heading has a line of its own, and the bar one that
   CHECK_FALSE(has_room_beside_bar(heading, 3, 79));
   CHECK(has_room_beside_bar("short", 3, 79));
   CHECK(progress_line("", 1, 3, 2.0, 79) == "█████░░░░░░░░░░░ 1/3  2.0 s, 4.0 s to go");
+  CHECK(progress_line("", 1, 3, 2.0, 79, "mall · CBS + DWA") ==
+        "█████░░░░░░░░░░░ 1/3  2.0 s, 4.0 s to go  mall · CBS + DWA");
+  CHECK(progress_line("", 1, 3, 2.0, 50, "mall · CBS + DWA") == "█████░░░░░░░░░░░ 1/3  2.0 s, 4.0 s to go");
   CHECK(progress_line("", 1, 3, 2.0, 30) == "1/3  2.0 s, 4.0 s to go");
   CHECK(progress_line("", 1, 3, 2.0, 10) == "1/3");
 }
