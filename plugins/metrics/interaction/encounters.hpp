@@ -48,7 +48,7 @@ class Encounters final : public Metric {
                                  .range(0.0, 100.0)
                                  .doc("surfaces that would be nearer than this make an encounter");
   Param<double> horizon_s =
-      param("horizon_s", 3.0).unit("s").range(0.0, 100.0).doc("how far ahead velocities are extended");
+      param("horizon_s", 5.0).unit("s").range(0.0, 100.0).doc("how far ahead velocities are extended");
   Param<double> apart_m =
       param("apart_m", 2.0).unit("m").range(0.0, 100.0).doc("an encounter lasts while surfaces are nearer than this");
   Param<double> cone = param("cone", 0.7853981633974483)

@@ -88,7 +88,7 @@ TEST_CASE("who passes at a distance, stands, moves away or is beside the robot a
   CHECK(met(minute_of({robot}, {straight(-5, 0, -1, 0), straight(5, 0, 1, 0)})).empty());
   CHECK(met(minute_of({robot}, {straight(0, 0.9, 0.5, 0)})).empty());
   CHECK(met(minute_of({robot}, {straight(0, 0.9, 0.5, -0.001)})).empty());
-  // a person turns back 5 m before the robot, which would reach it in 2 s; then 8 m, more than 3 s
+  // a person turns back 5 m before the robot, which would reach it in 2 s; then 14 m, more than 5 s
   const auto turns_at = [](double left_m) -> Way {
     const double turn_s = (20 - left_m) / 2.0;
     return [=](double t) {
@@ -96,7 +96,7 @@ TEST_CASE("who passes at a distance, stands, moves away or is beside the robot a
     };
   };
   CHECK(met(minute_of({robot}, {turns_at(5.0)})) == Counts{{"head_on person", 1}});
-  CHECK(met(minute_of({robot}, {turns_at(8.0)})).empty());
+  CHECK(met(minute_of({robot}, {turns_at(14.0)})).empty());
 }
 
 TEST_CASE("a meeting counts once, however its course wavers and however long it lasts, and again after it is over") {
