@@ -18,6 +18,7 @@
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
 #include "host/export/thresholds_table.hpp"
+#include "host/export/trial_filter.hpp"
 #include "host/export/trials_table.hpp"
 #include "host/program/executable.hpp"
 #include "host/report/data/report_data.hpp"
@@ -36,9 +37,10 @@ struct ExportOptions {
   std::vector<std::string> rows;     // labels; empty with the others: the tables of the report
   std::vector<std::string> columns;  // labels
   std::vector<std::string> metrics;
-  std::string table;          // table: one of the report's, or own_table, of rows, columns and metrics
-  std::uint64_t trial = 0;    // map: the trial
-  std::filesystem::path out;  // empty: standard output; figures also to a .png or .pdf
+  std::string table;               // table: one of the report's, or own_table, of rows, columns and metrics
+  std::vector<std::string> where;  // only trials that agree with these
+  std::uint64_t trial = 0;         // map: the trial
+  std::filesystem::path out;       // empty: standard output; figures also to a .png or .pdf
 };
 
 SummaryTableColumn parse_column(const nlohmann::json& json) {
@@ -122,7 +124,8 @@ std::string latex(const ExportOptions& options, const ReportRun& run, const Repo
       own ? std::vector{spec_of(options, run, layouts.report.json)} : layout_tables(layouts.report.json, run.trials);
   std::string text = "% dmrp-host export --latex. Needs \\usepackage{booktabs}.\n";
   for (const TableSpec& spec : specs)
-    text += latex_table(make_mean_table(spec, layouts.summary, run.metrics, run.trials)) + "\n";
+    for (const MeanTable& part : latex_parts(make_mean_table(spec, layouts.summary, run.metrics, run.trials)))
+      text += latex_table(part) + "\n";
   return text;
 }
 
@@ -175,7 +178,9 @@ int export_command(const ExportOptions& options) {
     write_output("--out", options.out, map_of(options));
     return exit_status::done;
   }
-  const ReportRun run = read_report_run(options.run_directory);
+  ReportRun run = read_report_run(options.run_directory);
+  const RunSettings settings(run.effective_toml, run.trials, people_counts(run.manifest.experiment.scenarios));
+  if (!options.where.empty()) run.trials = trials_where(options.where, run.trials, settings);
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
   check_metrics(options.metrics, run.metrics);
   std::string text;
@@ -186,7 +191,6 @@ int export_command(const ExportOptions& options) {
   } else if (options.format == ExportFormat::table) {
     text = table_svg(options, run, layouts);
   } else {
-    const RunSettings settings(run.effective_toml, run.trials, people_counts(run.manifest.experiment.scenarios));
     text = trials_table_csv(chosen_metrics(options, run.metrics), run.trials, settings);
   }
   if (options.format == ExportFormat::table)
@@ -210,15 +214,16 @@ void add_export(CLI::App& app) {
   format("--latex", ExportFormat::latex, "tables with booktabs: those of the report, or one of --rows and --columns");
   format("--csv", ExportFormat::csv, "one line a trial, with a column for each parameter, setting and metric");
   format("--thresholds", ExportFormat::thresholds, "the levels that are passed half of the time, as CSV");
-  formats
-      ->add_option_function<std::uint64_t>(
-          "--map",
-          [options](const std::uint64_t& trial) {
-            options->format = ExportFormat::map;
-            options->trial = trial;
-          },
-          "the map of this trial with the robots' plans and ways: SVG, or PNG or PDF by the ending of --out")
-      ->type_name("TRIAL");
+  CLI::Option* map =
+      formats
+          ->add_option_function<std::uint64_t>(
+              "--map",
+              [options](const std::uint64_t& trial) {
+                options->format = ExportFormat::map;
+                options->trial = trial;
+              },
+              "the map of this trial with the robots' plans and ways: SVG, or PNG or PDF by the ending of --out")
+          ->type_name("TRIAL");
   formats
       ->add_option_function<std::string>(
           "--table",
@@ -232,6 +237,12 @@ void add_export(CLI::App& app) {
   command->add_option("--rows", options->rows, "scenario, robots, people, planner, controller, pedestrian_model")
       ->delimiter(',');
   command->add_option("--columns", options->columns, "the same, across")->delimiter(',');
+  command
+      ->add_option("--where", options->where,
+                   "only trials with this value in a column of --csv; of one column: any, of several: all")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->excludes(map);
   command->add_option("--metric", options->metrics, "only these metrics")->delimiter(',')->type_name("NAME");
   command
       ->add_option("--out", options->out,

@@ -71,4 +71,7 @@ std::string interval_words(const TableCell& cell, std::uint32_t decimals);
 // A table environment with booktabs, for \input.
 std::string latex_table(const MeanTable& table);
 
+// The table in parts as wide as a page with two columns at most, by spans, then by metrics. All have its rows.
+std::vector<MeanTable> latex_parts(const MeanTable& table);
+
 }  // namespace dmrp::host

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# `export` writes LaTeX tables, CSV, tables and maps of a run as figures, and names mistakes of its options in one line. Where LaTeX and
-# rsvg-convert are installed, they read them.
+# `export` writes LaTeX tables, CSV, tables and maps of a run as figures, of all trials or of some, and names mistakes of its options in one line.
+# Where rsvg-convert is installed, it reads them; latex.sh compiles the tables.
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 run=$scratch/run
@@ -73,6 +73,19 @@ expect_status 0 "$host" "$scratch/crowd/effective.toml" --quiet --out "$scratch/
 swept="SELECT trial_id, key, value FROM swept ORDER BY 1, 2"
 [[ $(query "$scratch/again" "$swept") == "$(query "$scratch/crowd" "$swept")" ]] || fail "effective.toml has another sweep"
 
+# --where: some trials, in each format
+expect_status 0 "$host" export "$run" --csv --where local_controller.sim_time=1.70 --where repetition=1 --metric success
+[[ $(sed 1d "$scratch/stdout" | cut -d, -f7 | sort -u) == 1 ]] || fail "--where repetition=1 has other repetitions"
+[[ $(sed 1d "$scratch/stdout" | wc -l) == $(query "$run" "SELECT count(*) FROM trial JOIN swept ON trial_id = id
+  WHERE repetition = 1 AND key = 'sim_time' AND value + 0 = 1.7") ]] || fail "--where has other trials: $(cat "$scratch/stdout")"
+expect_status 0 "$host" export "$run" --csv --where repetition=0 --where repetition=1 --metric success
+[[ $(sed 1d "$scratch/stdout" | wc -l) == $(query "$run" "SELECT count(*) FROM trial") ]] || fail "two values are no alternatives"
+for format in --latex "--table own"; do
+  # shellcheck disable=SC2086
+  expect_status 0 "$host" export "$run" $format --rows controller --metric success --where local_controller.sim_time=1
+  [[ $(grep -c 'sim' "$scratch/stdout") == 1 ]] || fail "$format has rows of other trials"
+done
+
 refused() {
   expect_status 2 "$host" export "$run" "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
@@ -84,6 +97,11 @@ refused "none of scenario, robots, people, planner" --latex --rows planet
 refused "no scenario of this run has levels" --thresholds
 refused "not expected: .*--over" --csv --over people
 refused "^--map 99: .* has [0-9]+ finished trials, from 0 to" --map 99
+refused "'sim_time' is none of the [0-9]+ columns of this run .did you mean 'local_controller.sim_time'" --csv --where sim_time=1
+refused "'crosing' is none of crossing .did you mean 'crossing'" --csv --where scenario=crosing
+refused "'2' is none of 1, 1.7" --latex --where local_controller.sim_time=2
+refused "^--where: 'crossing' is not KEY=VALUE" --csv --where crossing
+refused "where excludes --map" --map 1 --where scenario=crossing
 refused "xactly 1 option from \[--latex,--csv,--thresholds,--map,--table\]" --latex --csv
 
 if command -v rsvg-convert >/dev/null; then
@@ -93,10 +111,4 @@ if command -v rsvg-convert >/dev/null; then
     pdftotext "$scratch/driving.pdf" - | grep -qx 'PFD' || fail "the PDF of the table does not say PFD"
   fi
   [[ $(head -c 5 "$scratch/map.pdf") == %PDF- ]] || fail "no PDF file of the map"
-fi
-if command -v pdflatex >/dev/null; then
-  printf '%s\n' '\documentclass[twocolumn]{article}' '\usepackage{booktabs}' '\begin{document}' '\input{tables}' \
-    '\input{own}' '\end{document}' >"$scratch/paper.tex"
-  (cd "$scratch" && pdflatex -interaction=nonstopmode -halt-on-error paper.tex >paper.out) ||
-    fail "LaTeX refuses the tables: $(tail -20 "$scratch/paper.out")"
 fi

@@ -60,7 +60,13 @@ TEST_CASE("the metrics declare the values that results are read by, each once") 
                                                           "root_conflicts",
                                                           "root_conflicts_waited",
                                                           "root_conflicts_detoured",
-                                                          "after_standstill"};
+                                                          "after_standstill",
+                                                          "encounters_head_on_person",
+                                                          "encounters_overtaking_person",
+                                                          "encounters_crossing_person",
+                                                          "encounters_head_on_robot",
+                                                          "encounters_overtaking_robot",
+                                                          "encounters_crossing_robot"};
   const std::set<std::string> timed = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                        "control_call_mean", "control_call_p99", "control_missed"};
   const std::set<std::string> curves = {"sto_by_distance", "ibtr_by_distance",    "ibtr_by_speed_fraction",
@@ -128,11 +134,23 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
                                            "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",
                                           "control_call_mean", "control_call_p99", "control_missed"};
-  const std::set<std::string> nobody = {"clearance_person_min",     "clearance_person_mean", "danger_time_person",
-                                        "proxemics_intimate",       "proxemics_personal",    "proxemics_social",
-                                        "group_intrusion_time",     "group_intrusions",      "social_work",
-                                        "social_work_robot",        "social_work_people",    "pedestrian_progress",
-                                        "pedestrian_desired_speed", "pedestrian_speed"};
+  const std::set<std::string> nobody = {"clearance_person_min",
+                                        "clearance_person_mean",
+                                        "danger_time_person",
+                                        "proxemics_intimate",
+                                        "proxemics_personal",
+                                        "proxemics_social",
+                                        "group_intrusion_time",
+                                        "group_intrusions",
+                                        "social_work",
+                                        "social_work_robot",
+                                        "social_work_people",
+                                        "pedestrian_progress",
+                                        "pedestrian_desired_speed",
+                                        "pedestrian_speed",
+                                        "encounters_head_on_person",
+                                        "encounters_overtaking_person",
+                                        "encounters_crossing_person"};
   for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
     const Measurement m = measure(entry().descriptor(&entry(), i)->id, trial);
     for (const auto& [key, value] : m.values) {

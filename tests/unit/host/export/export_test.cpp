@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
+#include "host/errors/input_error.hpp"
 #include "host/export/mean_table.hpp"
 #include "host/export/table_figure.hpp"
+#include "host/export/trial_filter.hpp"
 #include "host/export/trials_table.hpp"
 #include "tests/unit/host/ranking/ranking_example.hpp"
 
@@ -202,6 +204,71 @@ TEST_CASE("people are their number, which needs no sweep", "[export]") {
   trials.back().pedestrian_model = "";
   table = make_mean_table(spec, ranking_layout(), ranking_metrics(), trials);
   CHECK(table.spans.back() == "0 people");
+}
+
+TEST_CASE("a LaTeX table that is wider than a page comes in parts of whole spans, then of metrics", "[export]") {
+  SummaryTableColumn done{"done", "success", 2, "", false, ""};
+  SummaryTableColumn time{"time", "time", 1, "", false, ""};
+  const auto table_of = [&](const TableSpec& spec) {
+    return make_mean_table(spec, ranking_layout(), ranking_metrics(), example());
+  };
+  const MeanTable narrow = table_of({"t", "Results", {Label::local_controller}, {Label::robots}, {done, time}});
+  REQUIRE(latex_parts(narrow).size() == 1);
+  CHECK(latex_table(latex_parts(narrow)[0]) == latex_table(narrow));
+
+  done.header = std::string(40, 'd');
+  const std::vector<MeanTable> by_span =
+      latex_parts(table_of({"t", "Results", {Label::local_controller}, {Label::robots}, {done, time}}));
+  REQUIRE(by_span.size() == 2);
+  CHECK(by_span[0].spans == std::vector<std::string>{"2 robots"});
+  CHECK(by_span[1].spans == std::vector<std::string>{"4 robots"});
+  for (const MeanTable& part : by_span) CHECK(part.rows.size() == 2);
+  CHECK(*by_span[0].rows[1].cells[1].value == Approx(20.0));
+  CHECK(*by_span[1].rows[1].cells[0].value == Approx(0.75));
+  CHECK_THAT(latex_table(by_span[0]), Contains("\\caption{Results, part 1 of 2: means"));
+  CHECK_THAT(latex_table(by_span[0]), Contains("\\label{tab:t}"));
+  CHECK_THAT(latex_table(by_span[1]), Contains("\\label{tab:t-2}"));
+  CHECK_THAT(latex_table(by_span[1]), Contains("\\multicolumn{2}{c}{4 robots}"));
+
+  time.header = std::string(90, 't');
+  const std::vector<MeanTable> by_metric =
+      latex_parts(table_of({"t", "Results", {Label::local_controller}, {Label::robots}, {done, time}}));
+  REQUIRE(by_metric.size() == 4);  // two spans, each in two parts
+  CHECK(by_metric[3].spans == std::vector<std::string>{"4 robots"});
+  CHECK(by_metric[3].units == std::vector<std::string>{"s"});
+  CHECK(by_metric[2].rows[1].cells.size() == 1);
+  CHECK_THAT(latex_table(by_metric[3]), Contains("part 4 of 4"));
+  CHECK(latex_parts(table_of({"t", "Results", {Label::local_controller}, {}, {done, time}})).size() == 2);
+  CHECK(latex_parts(table_of({"t", "Results", {Label::local_controller}, {}, {}})).empty());
+}
+
+TEST_CASE("trials are chosen by what stands in their columns", "[export]") {
+  std::vector<TrialRecord> trials = example();
+  for (std::size_t i = 0; i < trials.size(); ++i) trials[i].id = i;
+  const RunSettings settings(effective, trials);
+  const auto count = [&](const std::vector<std::string>& conditions) {
+    return trials_where(conditions, trials, settings).size();
+  };
+  CHECK(count({"robots=2"}) == 20);
+  CHECK(count({"robots=2.0", "controller=slow"}) == 10);
+  CHECK(count({"local_controller.speed=1.00"}) == 20);
+  CHECK(count({"local_controller.mode=a, b", "trial=7", "trial=8"}) == 2);
+  CHECK(count({"local_controller=slow", "local_controller=fast"}) == 30);
+  const auto refusal = [&](const std::vector<std::string>& conditions) -> std::string {
+    try {
+      trials_where(conditions, trials, settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(refusal({"speed=1"}), Contains("--where speed=1: 'speed' is none of the ") &&
+                                       Contains(" columns of this run (did you mean 'local_controller.speed'?)"));
+  CHECK_THAT(refusal({"local_controller=slwo"}), Contains("'slwo' is none of slow, fast (did you mean 'slow'?)"));
+  CHECK_THAT(refusal({"trial=99"}), Contains("'99' is none of the 30 values of this run"));
+  CHECK_THAT(refusal({"robots"}), Contains("'robots' is not KEY=VALUE"));
+  CHECK_THAT(refusal({"robots=4", "local_controller=slow"}),
+             Contains("--where robots=4 local_controller=slow: no trial has all of these"));
 }
 
 TEST_CASE("a table as a figure has the values of the LaTeX table", "[export]") {
