@@ -128,6 +128,14 @@ def typical(runs: Path) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def dispatched(runs: Path) -> pd.DataFrame:
+    """Means of each dispatch, with and without the planner's loop."""
+    keys = ["local_controller", "dispatch", "replan_period_s"]
+    values = {"n": ("success", "size"), "success": ("success", "mean"), "arrived_n": ("completion_time", "count")}
+    groups = trials_of(dmrp.load(runs / "dispatch")).groupby(keys)
+    return groups.agg(**values, completion_time=("completion_time", "mean")).reset_index()
+
+
 def main() -> None:
     runs = Path(sys.argv[1])
     out = Path(sys.argv[2]) if len(sys.argv) > 2 else HERE.parents[1] / "docs" / "measured" / "paper"
@@ -135,6 +143,7 @@ def main() -> None:
     for name, metrics in TABLES.items():
         run = dmrp.load(runs / name)
         write(out / f"{name}.csv", run, table(run, metrics or DRIVING))
+    write(out / "dispatch.csv", dmrp.load(runs / "dispatch"), dispatched(runs))
     write(out / "typical.csv", dmrp.load(runs / "drawn"), typical(runs))
     claims = tomllib.loads(CLAIMS.read_text())["claim"]
     write(out / "claims.csv", dmrp.load(runs / claims[0]["experiment"]), settled(runs, claims))
