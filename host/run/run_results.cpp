@@ -140,9 +140,8 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   const std::size_t width = style.width > 0 ? style.width : text_width;
   if (!all_graded) {
     fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
-    fmt::print("{}\n",
-               table_legend(layout, results.summarised, results.summaries, met_by_all(results.trials), marks,
-                            {width, style.ansi}));
+    fmt::print("{}\n", table_legend(layout, results.summarised, results.summaries, met_by_all(results.trials), marks,
+                                    {width, style.ansi}));
   }
   if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
     fmt::print("{}\n", wrapped_text(drawn, width, "  "));
