@@ -105,7 +105,7 @@ void Dispatcher::update_progress() {
 }
 
 void Dispatcher::update_places() {
-  const std::optional<std::uint32_t> late = in_lockstep() ? last_to_arrive() : std::nullopt;
+  const std::optional<std::uint32_t> late = in_lockstep() ? late_robot() : std::nullopt;
   for (std::uint32_t i = 0; i < courses_.size(); ++i) places_[i] = place_of(i, late);
 }
 
@@ -187,14 +187,14 @@ bool Dispatcher::is_at_target(std::uint32_t robot) const {
 }
 
 // The robot with the lowest number that is not at its waypoint; none if all are.
-std::optional<std::uint32_t> Dispatcher::last_to_arrive() const {
+std::optional<std::uint32_t> Dispatcher::late_robot() const {
   for (std::uint32_t i = 0; i < courses_.size(); ++i)
     if (is_driving(i) && !is_at_target(i)) return i;
   return std::nullopt;
 }
 
 void Dispatcher::advance_together() {
-  for (bool has_more = true; has_more && !last_to_arrive();) {
+  for (bool has_more = true; has_more && !late_robot();) {
     has_more = false;
     for (std::uint32_t i = 0; i < courses_.size(); ++i) {
       Course& course = courses_[i];

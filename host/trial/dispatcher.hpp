@@ -103,7 +103,7 @@ class Dispatcher {
   void cut(std::uint32_t robot);
   bool is_driving(std::uint32_t robot) const;
   bool is_at_target(std::uint32_t robot) const;
-  std::optional<std::uint32_t> last_to_arrive() const;
+  std::optional<std::uint32_t> late_robot() const;
   void advance(std::uint32_t robot);
   void advance_together();
   core::CoursePlace place_of(std::uint32_t robot, std::optional<std::uint32_t> late) const;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The experiments of the paper and of dmrp1 are valid, and planners have the lengths and overlaps of Table II of the paper (Hu et al.,
-# ICRA 2026) in mall and office. Called as: paper.sh DMRP_HOST SOURCE_DIR
+# The experiments of the paper and of dmrp1 are valid, and planners have the lengths and overlaps of Table II of the
+# paper (Hu et al., ICRA 2026) in mall and office. Called as: paper.sh DMRP_HOST SOURCE_DIR
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 paper=$2/examples/paper
 
