@@ -59,14 +59,14 @@ PlanningGrid PlanningGrids::common(std::span<const std::string> types) const {
 }
 
 std::vector<RobotTask> PlanningGrids::draw(std::span<const TypeShare> shares, std::size_t count, std::uint64_t seed,
-                                           std::span<const dmrp_vec2> inside) const {
-  if (shares.empty()) return random_tasks(standard(), count, seed, inside);
+                                           std::span<const dmrp_vec2> inside, TaskLack* lack) const {
+  if (shares.empty()) return random_tasks(standard(), count, seed, inside, lack);
   std::vector<std::string> types;
   for (const TypeShare& one : shares) types.push_back(one.type);
   const PlanningGrid grid = common(types);
   std::vector<TypeGrid> drawn;
   for (const std::string& type : types) drawn.push_back({type, radii_m_[index_of(type)], &grid});
-  return random_tasks(drawn, drawn_types(shares, count), seed, inside);
+  return random_tasks(drawn, drawn_types(shares, count), seed, inside, lack);
 }
 
 }  // namespace dmrp::core

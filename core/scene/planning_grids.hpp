@@ -37,7 +37,7 @@ class PlanningGrids {
 
   // Random tasks for robots whose types have these shares (random_tasks.hpp), on cells that are free for all of them.
   std::vector<RobotTask> draw(std::span<const TypeShare> shares, std::size_t count, std::uint64_t seed,
-                              std::span<const dmrp_vec2> inside) const;
+                              std::span<const dmrp_vec2> inside, TaskLack* lack = nullptr) const;
 
  private:
   std::size_t index_of(std::string_view type) const;

@@ -35,20 +35,22 @@ class TaskSampler {
     for (const TypeGrid& grid : grids) largest_m_ = std::max(largest_m_, grid.radius_m);
   }
 
-  // Adds the next robot's task; false if there is no room.
-  bool add_to(std::vector<RobotTask>& tasks, std::size_t kind) {
+  // Adds the next robot's task, unless there is no room.
+  TaskLack add_to(std::vector<RobotTask>& tasks, std::size_t kind) {
     const dmrp_grid c_grid = grids_[kind].grid->view();
     const toolkit::GridView grid(c_grid);
     const auto& starts = starts_[kind];
     const auto& goals = goals_[kind];
     const auto start =
         std::find_if(starts.begin(), starts.end(), [&](std::uint32_t cell) { return !start_is_taken_[cell]; });
-    if (start == starts.end()) return false;
+    if (start == starts.end()) return TaskLack::start;
     const dmrp_vec2 from = grid.center(*start);
+    const auto is_left = [&](std::uint32_t cell) { return !goal_is_taken_[cell]; };
     const auto goal = std::find_if(goals.begin(), goals.end(), [&](std::uint32_t cell) {
-      return !goal_is_taken_[cell] && toolkit::distance(grid.center(cell), from) >= min_task_length_m;
+      return is_left(cell) && toolkit::distance(grid.center(cell), from) >= min_task_length_m;
     });
-    if (goal == goals.end()) return false;
+    if (goal == goals.end())
+      return std::any_of(goals.begin(), goals.end(), is_left) ? TaskLack::length : TaskLack::goal;
     const dmrp_vec2 to = grid.center(*goal);
     const double apart_m = std::max(task_separation_m, grids_[kind].radius_m + largest_m_ + task_gap_m);
     take(grid, *start, apart_m, start_is_taken_);
@@ -57,7 +59,7 @@ class TaskSampler {
                      {from.x, from.y, free_heading},
                      {{to.x, to.y, free_heading}},
                      grids_[kind].type});
-    return true;
+    return TaskLack::nothing;
   }
 
  private:
@@ -178,23 +180,27 @@ std::vector<std::string> drawn_types(std::span<const TypeShare> shares, std::siz
 }
 
 std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
-                                    std::uint64_t seed, std::span<const dmrp_vec2> inside) {
+                                    std::uint64_t seed, std::span<const dmrp_vec2> inside, TaskLack* lack) {
   std::vector<std::vector<std::uint32_t>> parts;
   for (const TypeGrid& grid : grids) parts.push_back(part_for_tasks(*grid.grid, inside));
   std::vector<RobotTask> most;
   for (int attempt = 0; attempt < attempts && (most.size() < types.size() || attempt == 0); ++attempt) {
     TaskSampler sampler(grids, parts, seed, attempt);
     std::vector<RobotTask> tasks;
-    while (tasks.size() < types.size() && sampler.add_to(tasks, grid_of(grids, types[tasks.size()]))) continue;
-    if (attempt == 0 || tasks.size() > most.size()) most = std::move(tasks);
+    TaskLack lacks = TaskLack::nothing;
+    while (tasks.size() < types.size() && lacks == TaskLack::nothing)
+      lacks = sampler.add_to(tasks, grid_of(grids, types[tasks.size()]));
+    if (attempt > 0 && tasks.size() <= most.size()) continue;
+    most = std::move(tasks);
+    if (lack) *lack = lacks;
   }
   return most;
 }
 
 std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed,
-                                    std::span<const dmrp_vec2> inside) {
+                                    std::span<const dmrp_vec2> inside, TaskLack* lack) {
   const TypeGrid only = {"", 0.0, &grid};
-  return random_tasks({&only, 1}, std::vector<std::string>(count), seed, inside);
+  return random_tasks({&only, 1}, std::vector<std::string>(count), seed, inside, lack);
 }
 
 bool has_room_for_tasks(const PlanningGrid& grid, std::size_t count, std::span<const dmrp_vec2> inside) {

@@ -27,13 +27,17 @@ inline constexpr double way_outside_m = 2.0;
 // out, unless all of the points lie in it.
 std::vector<std::uint32_t> part_for_tasks(const PlanningGrid& grid, std::span<const dmrp_vec2> inside);
 
+// What the next robot lacked where there was not room for all: a cell for its start or for its goal, away from those of
+// the others, or one far enough from its start.
+enum class TaskLack { nothing, start, goal, length };
+
 // Starts and goals of `count` robots on the centres of free cells of part_for_tasks(); headings are free. The task of
 // robot i does not depend on `count` as long as there is room for all. Returns fewer than `count` tasks if there is not.
 //
 // Each task is uniform among the cells that the previous tasks leave: a set of tasks is a sampled instance of the
 // world.
 std::vector<RobotTask> random_tasks(const PlanningGrid& grid, std::size_t count, std::uint64_t seed,
-                                    std::span<const dmrp_vec2> inside = {});
+                                    std::span<const dmrp_vec2> inside = {}, TaskLack* lack = nullptr);
 
 // A share of the drawn robots that have a type. Shares need not sum up to 1.
 struct TypeShare {
@@ -54,7 +58,8 @@ struct TypeGrid {
 // Random tasks of robots with these types, each on the grid of its type. The tasks are those above if there is one type
 // and its robots are not large.
 std::vector<RobotTask> random_tasks(std::span<const TypeGrid> grids, std::span<const std::string> types,
-                                    std::uint64_t seed, std::span<const dmrp_vec2> inside = {});
+                                    std::uint64_t seed, std::span<const dmrp_vec2> inside = {},
+                                    TaskLack* lack = nullptr);
 
 // Whether random_tasks() finds room for `count` robots with every seed. A sufficient condition: false does not mean
 // that some seed fails.

@@ -17,7 +17,7 @@ bool fulfils(const TaskDifficulty& difficulty, const TaskWishes& wishes) {
 
 DrawnTasks draw_tasks(const PlanningGrids& grids, const TaskRequest& request, std::uint64_t seed) {
   DrawnTasks out;
-  out.tasks = grids.draw(request.types, request.count, seed, request.inside);
+  out.tasks = grids.draw(request.types, request.count, seed, request.inside, &out.lack);
   if (request.wishes.drawn == 0) return out;
   std::vector<std::string> types;
   for (const TypeShare& share : request.types) types.push_back(share.type);
@@ -27,7 +27,7 @@ DrawnTasks draw_tasks(const PlanningGrids& grids, const TaskRequest& request, st
     out.as_wished = out.tasks.size() == request.count && fulfils(out.difficulty, request.wishes);
     if (out.as_wished || attempt + 1 == task_attempts) return out;
     const std::uint64_t next = toolkit::Stream(seed, "robots.tasks", static_cast<std::uint64_t>(attempt)).next_u64();
-    out.tasks = grids.draw(request.types, request.count, next, request.inside);
+    out.tasks = grids.draw(request.types, request.count, next, request.inside, &out.lack);
   }
 }
 

@@ -37,6 +37,7 @@ struct DrawnTasks {
   std::vector<RobotTask> tasks;  // fewer than asked for if there is not room for all
   TaskDifficulty difficulty;     // of tasks with wishes
   bool as_wished = true;
+  TaskLack lack = TaskLack::nothing;  // why there are fewer
 };
 
 // With wishes it draws until the tasks are well-formed and have as many conflicts as wished, at most

@@ -105,7 +105,7 @@ void examine(const CheckCase& check_case, const std::filesystem::path& file, con
       return send(answer, {{"result", CheckResult::skip}, {"text", "it says that this trial is not for it"}});
     examination->fail(fault.text());
   } catch (const std::bad_alloc&) {
-    examination->fail(fmt::format("needs more than {} MB of memory", memory_mb));
+    examination->fail(lack_of_memory(memory_mb));
   } catch (const std::exception& error) {
     examination->fail(error.what());
   }

@@ -10,6 +10,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/identity.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/shell_word.hpp"
 #include "host/guests/probe.hpp"
 #include "host/results/database.hpp"
 #include "host/results/sqlite.hpp"
@@ -74,7 +75,7 @@ void bundle_experiment(const BundleOptions& options) {
     write_bundle(experiment, experiment.text, manifest, BundleLayout(experiment, manifest, options.with_plugins),
                  folder);
   });
-  fmt::print("{0}: run it by dmrp-host {0}/experiment.toml\n", folder.string());
+  fmt::print("{}: run it by dmrp-host {}\n", folder.string(), shell_word((folder / "experiment.toml").string()));
 }
 
 }  // namespace
@@ -112,7 +113,8 @@ int bundle_command(const BundleOptions& options) {
   const RunDirectory locked = RunDirectory::open_finished(options.source, options.source.string());
   const fs::path folder = folder_of(options, fs::canonical(options.source).filename());
   bundle_run(options.source, folder, options.with_plugins);
-  fmt::print("{0}: run it by dmrp-host {0}/experiment.toml, compare by dmrp-host verify {0}\n", folder.string());
+  fmt::print("{}: run it by dmrp-host {}, compare by dmrp-host verify {}\n", folder.string(),
+             shell_word((folder / "experiment.toml").string()), shell_word(folder.string()));
   return exit_status::done;
 }
 

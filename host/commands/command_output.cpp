@@ -6,10 +6,12 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <set>
 #include <system_error>
 
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
+#include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
 #include "host/terminal/colors.hpp"
 
@@ -19,6 +21,15 @@ namespace fs = std::filesystem;
 
 std::string plural(std::uint64_t n, const std::string& noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+std::string map_lines(const Experiment& experiment) {
+  std::string lines;
+  std::set<std::string> seen;
+  for (const ScenarioVariant& variant : experiment.scenarios)
+    if (variant.census && seen.insert(variant.file.string()).second)
+      lines += fmt::format("{}: {}\n", variant.census->file, census_text(*variant.census));
+  return lines;
 }
 
 void warn(const std::string& text) {

@@ -185,6 +185,8 @@ int draw_command(const DrawOptions& options) {
     throw InputError(fmt::format("scenario '{}' lists no robots to plan for (--agents draws some)", options.scenario));
   if (!options.planner.empty())
     add_planner(experiment, options.planner, options.plugins, options.settings, &probe_library);
+  for (const std::string& warning : experiment.warnings) warn(warning);
+  fmt::print(stderr, "{}", map_lines(experiment));
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);
   PlannedPaths paths;

@@ -16,6 +16,7 @@
 #include "host/files/atomic_file.hpp"
 #include "host/files/open_log.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/shell_word.hpp"
 #include "host/process/descriptor.hpp"
 #include "host/program/executable.hpp"
 #include "host/program/version.hpp"
@@ -225,8 +226,9 @@ int merge_command(const MergeOptions& options) {
   write_tables(results, out);
   print_results(results, layout, out, try_to_report(results, out));
   if (results.trials.size() < manifest.experiment.trials_planned)
-    fmt::print(stderr, "{} of {} trials are finished: continue with --resume --out {}\n", results.trials.size(),
-               manifest.experiment.trials_planned, out.string());
+    fmt::print(stderr, "{} of {} trials are finished: continue with dmrp-host run {} --resume --out {}\n",
+               results.trials.size(), manifest.experiment.trials_planned, shell_word((out / "effective.toml").string()),
+               shell_word(out.string()));
   return exit_status::done;
 }
 

@@ -13,6 +13,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/machine_error.hpp"
 #include "host/files/read_file.hpp"
+#include "host/files/shell_word.hpp"
 #include "host/program/executable.hpp"
 #include "host/toml/nearest_name.hpp"
 
@@ -142,11 +143,11 @@ int new_command(const NewOptions& options) {
   std::sort(written.begin(), written.end());
   fmt::print("{}: {}\n", options.folder.string(), fmt::join(written, ", "));
   if (options.python) {
-    fmt::print("  cd {} && dmrp-host {}.toml\n", options.folder.string(), names.file_name);
+    fmt::print("  cd {} && dmrp-host {}.toml\n", shell_word(options.folder.string()), names.file_name);
     return exit_status::done;
   }
   fmt::print("  cd {} && cmake -S . -B build && cmake --build build && ctest --test-dir build\n",
-             options.folder.string());
+             shell_word(options.folder.string()));
   return exit_status::done;
 }
 

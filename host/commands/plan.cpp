@@ -81,10 +81,14 @@ std::unique_ptr<PlanTask> task_on_map(const PlanOptions& options, const Experime
         fmt::format("--agents {}: {} has {}", options.agents, read.shown_path, plural(read.tasks.size(), "task")));
   read.tasks.resize(options.agents);
   for (std::size_t b = 0; b < read.tasks.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a)
-      if (read.tasks[a].start == read.tasks[b].start)
-        throw InputError(fmt::format("{}:{}:1: agents {} and {} both start at ({}, {})", read.shown_path,
-                                     read.tasks[b].line, a, b, read.tasks[a].start.x, read.tasks[a].start.y));
+    for (std::size_t a = 0; a < b; ++a) {
+      const auto fail = [&](const char* verb, MovingAiCell cell) {
+        throw InputError(fmt::format("{}:{}:1: agents {} and {} both {} at ({}, {})", read.shown_path,
+                                     read.tasks[b].line, a, b, verb, cell.x, cell.y));
+      };
+      if (read.tasks[a].start == read.tasks[b].start) fail("start", read.tasks[a].start);
+      if (read.tasks[a].goal == read.tasks[b].goal) fail("end", read.tasks[a].goal);
+    }
   if (const std::string name = fs::path(read.map_name).filename().string(); name != options.map.filename().string())
     warn(fmt::format("{}: its tasks are for '{}', not '{}'", read.shown_path, name, options.map.filename().string()));
   return cell_task(map, read.tasks, experiment);

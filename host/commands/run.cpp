@@ -13,6 +13,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/files/atomic_file.hpp"
+#include "host/files/shell_word.hpp"
 #include "host/files/sync_directory.hpp"
 #include "host/guests/probe.hpp"
 #include "host/plan/check_plan_files.hpp"
@@ -246,6 +247,7 @@ int run_command(const RunOptions& options) {
                        database.finished_trials(options.retry_faults ? ResultsDatabase::Finished::without_faults
                                                                      : ResultsDatabase::Finished::all));
 
+  if (!is_silent) std::fputs(map_lines(experiment).c_str(), options.json ? stderr : stdout);
   Progress progress(heading(experiment, trials.left()), trials.left(), is_silent || options.json);
   ProgressLines lines(!options.progress.empty(), trials.left());
   lines.begin(files.directory());
@@ -273,8 +275,11 @@ int run_command(const RunOptions& options) {
   else if (!is_silent)
     print_results(results, layout, files.directory(), reported, facts_of(experiment, shard, count).scenarios);
   if (ending == RunEnding::interrupted) {
-    fmt::print(stderr, "interrupted: finished trials are kept; continue with --resume --out {}\n",
-               files.directory().string());
+    std::string again = "dmrp-host run " + shell_word(options.experiment.string());
+    if (options.trials > 0) again += fmt::format(" --trials {}", options.trials);
+    if (!options.shard.empty()) again += " --shard " + options.shard;
+    fmt::print(stderr, "interrupted: finished trials are kept; continue with {} --resume --out {}\n", again,
+               shell_word(files.directory().string()));
     return exit_status::interrupted;
   }
   if (!options.bundle.empty()) bundle_run(files.directory(), options.bundle, false);

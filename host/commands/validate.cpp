@@ -51,6 +51,7 @@ int validate_command(const std::filesystem::path& file) {
   const std::size_t count = combinations(experiment).size();
   fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),
              plural(experiment.trials, "repetition"), count * experiment.trials, experiment.metrics.size());
+  fmt::print("{}", map_lines(experiment));
   if (const std::string line = power_line(experiment); !line.empty()) fmt::print("{}\n", line);
   return exit_status::done;
 }

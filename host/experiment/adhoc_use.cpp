@@ -102,6 +102,8 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
   ScenarioVariant& variant = experiment.scenarios.back();
   variant.types = robot_types_of(read, experiment.robot, {});
+  variant.census = read.census;
+  experiment.warnings = read.warnings;
   if (to_plan) check_world(read, variant.types, experiment);
   return experiment;
 }
@@ -113,10 +115,10 @@ void use_random_tasks(Experiment& experiment, std::uint32_t robots, std::uint64_
   const core::SimulationSettings& simulation = experiment.simulation;
   const core::PlanningGrids grids(geometry, core::RobotTypes(experiment.robot), simulation);
   core::DrawnTasks drawn = core::draw_tasks(grids, {robots, {}, scenario.inside, wishes}, seed);
+  if (drawn.tasks.size() < robots)
+    throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks: {}", robots,
+                                 scenario.name, drawn.tasks.size(), lacking_rule(drawn)));
   scenario.robots = std::move(drawn.tasks);
-  if (scenario.robots.size() < robots)
-    throw InputError(fmt::format("--agents {}: scenario '{}' has room for {} robots with random tasks", robots,
-                                 scenario.name, scenario.robots.size()));
   if (!drawn.as_wished)
     throw InputError(
         fmt::format("--conflicts-min, --conflicts-max: none of {} draws of tasks for {} robots in '{}' has as many",

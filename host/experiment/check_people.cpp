@@ -23,12 +23,15 @@ namespace dmrp::host {
 namespace {
 
 constexpr int group_attempts = 32;
+constexpr double fastest_mps = 5.0;  // that a person is taken to walk
 
 class PeopleCheck {
  public:
-  PeopleCheck(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-              const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment)
+  PeopleCheck(const ScenarioFile& file, const core::RobotTypes& types,
+              const std::shared_ptr<const core::StaticGeometry>& geometry, const core::PlanningGrids& planning,
+              const RandomRobots& drawn, Experiment& experiment)
       : file_(file),
+        types_(types),
         scenario_(file.scenario),
         geometry_(geometry),
         planning_(planning),
@@ -42,7 +45,10 @@ class PeopleCheck {
     });
     mistakes.attempt([&] { check_tracks(); });
     mistakes.end();
-    for (const RecordingPlace& recording : file_.recordings) check_seen(recording);
+    for (const RecordingPlace& recording : file_.recordings) {
+      check_seen(recording);
+      check_walks(recording);
+    }
   }
 
  private:
@@ -183,7 +189,66 @@ class PeopleCheck {
              recording.shown_path, limit_s, first_s, last_s));
   }
 
+  // Warns of what nobody walks, at the first of it: other units or axes, or rows that are missing.
+  void check_walks(const RecordingPlace& recording) {
+    Doubts fast, through, on_start;
+    for (std::size_t i = recording.first; i < recording.end; ++i) {
+      const core::Track& track = scenario_.tracks[i];
+      const auto& points = track.points;
+      for (std::size_t row = 1; row < points.size(); ++row) {
+        const dmrp_vec2 from = points[row - 1].position;
+        const dmrp_vec2 to = points[row].position;
+        const double speed_mps =
+            toolkit::distance(from, to) / (1e-9 * static_cast<double>(points[row].t_ns - points[row - 1].t_ns));
+        if (speed_mps > fastest_mps)
+          fast.add(i, row, fmt::format("moves at {:.1f} m/s, faster than {} m/s", speed_mps, fastest_mps));
+        if (!geometry_->sweep_is_free(from, to, 0.0))
+          through.add(
+              i, row,
+              fmt::format("goes through a wall or shape, from ({}, {}) to ({}, {})", from.x, from.y, to.x, to.y));
+      }
+      if (!core::is_on_track(track, 0)) continue;
+      const dmrp_vec2 at = core::position_on(track, 0);
+      for (std::size_t robot = 0; robot < scenario_.robots.size(); ++robot) {
+        const core::RobotTask& task = scenario_.robots[robot];
+        const double distance_m = toolkit::distance(at, {task.start.x, task.start.y});
+        if (distance_m < types_.of(task).radius_m + scenario_.people.radius_m)
+          on_start.add(i, 0, fmt::format("is on the start of robot {} at 0 s, {:.2f} m from it", robot, distance_m));
+      }
+    }
+    for (const Doubts* doubts : {&fast, &through, &on_start})
+      if (doubts->people > 0) warn(*doubts);
+  }
+
+  // What holds for rows of a recording: the first of them, and the number of people.
+  struct Doubts {
+    std::size_t people = 0;
+    std::size_t track = 0;
+    std::size_t row = 0;
+    std::string text{};
+    std::size_t last = 0;  // track
+
+    void add(std::size_t of_track, std::size_t at_row, std::string what) {
+      if (people > 0 && last == of_track) return;
+      if (people++ == 0) {
+        track = of_track;
+        row = at_row;
+        text = std::move(what);
+      }
+      last = of_track;
+    }
+  };
+
+  void warn(const Doubts& doubts) {
+    const TrackPlace& place = file_.tracks[doubts.track];
+    const std::size_t others = doubts.people - 1;
+    experiment_.warnings.push_back(fmt::format("{}:{}:1: person {} {}{}", place.shown_path, place.lines[doubts.row],
+                                               place.id, doubts.text,
+                                               others == 0 ? "" : fmt::format(" (and {} more)", others)));
+  }
+
   const ScenarioFile& file_;
+  const core::RobotTypes& types_;
   const core::Scenario& scenario_;
   std::shared_ptr<const core::StaticGeometry> geometry_;
   const core::PlanningGrids& planning_;
@@ -193,9 +258,10 @@ class PeopleCheck {
 
 }  // namespace
 
-void check_people(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-                  const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment) {
-  PeopleCheck(file, geometry, planning, drawn, experiment).run();
+void check_people(const ScenarioFile& file, const core::RobotTypes& types,
+                  const std::shared_ptr<const core::StaticGeometry>& geometry, const core::PlanningGrids& planning,
+                  const RandomRobots& drawn, Experiment& experiment) {
+  PeopleCheck(file, types, geometry, planning, drawn, experiment).run();
 }
 
 }  // namespace dmrp::host

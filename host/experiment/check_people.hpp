@@ -13,9 +13,11 @@
 namespace dmrp::host {
 
 // Checks that people can walk along their flows, that there is room for all at t = 0 in every repetition, and that
-// recorded people keep out of shapes. `drawn`: robots with random tasks on the grids `planning`.
+// recorded people keep out of shapes, walk no faster than people do, and not where a robot starts. `drawn`: robots with
+// random tasks on the grids `planning`.
 // A mistake is an InputError at its place in the file, a doubt a warning in the experiment.
-void check_people(const ScenarioFile& file, const std::shared_ptr<const core::StaticGeometry>& geometry,
-                  const core::PlanningGrids& planning, const RandomRobots& drawn, Experiment& experiment);
+void check_people(const ScenarioFile& file, const core::RobotTypes& types,
+                  const std::shared_ptr<const core::StaticGeometry>& geometry, const core::PlanningGrids& planning,
+                  const RandomRobots& drawn, Experiment& experiment);
 
 }  // namespace dmrp::host

@@ -83,7 +83,7 @@ class WorldCheck {
       if (mistakes.attempt([&] { check_size_and_task(i); })) placed.push_back(i);
     for (std::size_t a = 0; a < placed.size(); ++a)
       for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
-    mistakes.attempt([&] { check_people(file_, geometry_, planning_, drawn_, experiment_); });
+    mistakes.attempt([&] { check_people(file_, types_, geometry_, planning_, drawn_, experiment_); });
     mistakes.end();
     if (experiment_.simulation.planning_body == core::PlanningBody::point) return check_margin_of_points();
     check_cell_size();
@@ -123,6 +123,16 @@ class WorldCheck {
                        "keep them apart by their footprints",
                        experiment_.simulation.grid_resolution_m,
                        radii_m[0] == radii_m[1] ? "2 sqrt(2) r" : "sqrt(2) (r1 + r2)", safe_cell_m));
+  }
+
+  // Where hardly anything of a map is free, its thresholds or its inversion are the mistake.
+  std::string shown_map() const {
+    constexpr double hardly = 0.1;
+    if (!file_.census) return "";
+    const MapCensus& census = *file_.census;
+    const std::size_t free = census.free + (census.unknown_is_free ? census.unknown : 0);
+    if (static_cast<double>(free) >= hardly * static_cast<double>(census.cells)) return "";
+    return fmt::format("; hardly anything is free in {}: {}", census.file, census_text(census));
   }
 
   // Whether the robot's outline is free at a pose; a free heading is always right.
@@ -189,9 +199,9 @@ class WorldCheck {
     const bool border = nearest.shape == geometry_->border();
     const std::string name = border ? shape : "'" + shape + "'";
     if (nearest.clearance_m < radius_m)
-      fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m)", verb,
+      fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m){}", verb,
                                     nearest.clearance_m == 0.0 ? "inside" : "too near to", name, nearest.clearance_m,
-                                    needed_m));
+                                    needed_m, shown_map()));
     if (!outline_is_free(type, pose))
       fail_robot(robot, fmt::format("{} with its outline in a wall or shape, at ({}, {}, {:.2f} rad)", verb, pose.x,
                                     pose.y, pose.theta));
@@ -375,10 +385,8 @@ void check_drawn_tasks(const ScenarioFile& file, const core::PlanningGrids& grid
     const std::uint64_t seed = task_seed(experiment, scenario.name, wishes, repetition);
     const core::DrawnTasks tasks = core::draw_tasks(grids, request_of(drawn, scenario), seed);
     if (const std::size_t found = tasks.tasks.size(); found < drawn.most)
-      drawn.at->fail(
-          fmt::format("scenario '{}' has room for {} robots with random tasks (repetition {}: starts, and goals, more "
-                      "than {} m apart), not {}",
-                      scenario.name, found, repetition, core::task_separation_m, drawn.most));
+      drawn.at->fail(fmt::format("scenario '{}' has room for {} robots with random tasks (repetition {}: {}), not {}",
+                                 scenario.name, found, repetition, lacking_rule(tasks), drawn.most));
     if (!tasks.as_wished)
       drawn.at->fail(
           fmt::format("scenario '{}': none of {} draws of tasks for {} robots has as many conflicts as "
@@ -390,6 +398,14 @@ void check_drawn_tasks(const ScenarioFile& file, const core::PlanningGrids& grid
 }
 
 }  // namespace
+
+std::string lacking_rule(const core::DrawnTasks& drawn) {
+  if (drawn.lack == core::TaskLack::length)
+    return fmt::format("a goal must be at least {} m from its start", core::min_task_length_m);
+  if (drawn.tasks.empty()) return "no planning cell is free";
+  return fmt::format("{}s must be more than {} m apart", drawn.lack == core::TaskLack::goal ? "goal" : "start",
+                     core::task_separation_m);
+}
 
 core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& scenario) {
   return {drawn.most, drawn.types, scenario.inside, drawn.wishes};

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/tasks/task_generator.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/scenario/read_scenario.hpp"
 
@@ -18,6 +20,9 @@ struct RandomRobots {
   std::vector<core::TypeShare> types{};
   core::TaskWishes wishes{};
 };
+
+// The rule by which there is no room for another random task: "starts must be more than 2 m apart".
+std::string lacking_rule(const core::DrawnTasks& drawn);
 
 core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& scenario);
 

@@ -150,6 +150,7 @@ void add_variant(const ScenarioUse& use, const fs::path& file, const RobotCount&
   variant.grade = use.file.grade;
   variant.jitter = use.jitter;
   variant.people = use.people;
+  variant.census = use.file.census;
   if (use.people.listed) variant.swept.push_back({"", use.people.key, fmt::format("{}", use.people.value)});
   for (const ScenarioVariant& other : experiment.scenarios)
     if (result_name(other) == result_name(variant) && robot_count(other) == count.robots)
@@ -252,6 +253,7 @@ ScenarioUse read_use(const TomlTable& table, const TomlValue& name, const fs::pa
   if (has_file && has_tasks) mistakes.attempt([&] { counts = robot_counts(table, name, use.file.scenario, tasks); });
   mistakes.end();
   use.people = people;
+  experiment.warnings.insert(experiment.warnings.end(), use.file.warnings.begin(), use.file.warnings.end());
   use.random.wishes = tasks.wishes;
   warn_of_drawn_list(counts, tasks, use.file.scenario, experiment);
   std::size_t most_listed = 0;

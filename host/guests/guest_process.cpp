@@ -259,7 +259,7 @@ void GuestProcess::has_died(const GuestRequest& request) {
   else if (ending.signal != 0)
     out.detail = strsignal(ending.signal);
   else if (ending.exit_status == out_of_memory_exit)
-    out.detail = fmt::format("more than memory_mb = {}", limits_.memory_mb);
+    out.detail = fmt::format("{} (memory_mb = {})", lack_of_memory(limits_.memory_mb), limits_.memory_mb);
   else
     out.detail = fmt::format("the process ended with status {}", ending.exit_status);
   end(request, std::move(out));

@@ -55,6 +55,12 @@ class PgmText {
     return static_cast<std::uint32_t>(value);
   }
 
+  // Fails unless the file ends here, but for blanks and comments.
+  void end_of_samples() {
+    skip_blanks();
+    if (position_ < bytes_.size()) fail(position_, "the file goes on after the image's last grey value");
+  }
+
   // Skips the single blank before raw samples.
   void skip_one_blank() {
     if (position_ == bytes_.size() || !is_space(bytes_[position_])) fail(position_, "expected a blank after maxval");
@@ -76,6 +82,18 @@ class PgmText {
 
 void read_plain_samples(PgmText& text, MapImage& image) {
   for (std::uint32_t& level : image.level) level = text.number("a grey value", image.white);
+  text.end_of_samples();
+}
+
+// Some writers end the file with a line end. More bytes are a sign that the grey values are not where they seem to be.
+void check_surplus(std::string_view bytes, const PgmText& text, const MapImage& image, std::size_t sample_bytes) {
+  const std::size_t begin = text.position();
+  const std::string_view surplus = bytes.substr(begin + image.level.size() * sample_bytes);
+  const bool is_shifted = bytes[begin - 1] == '\r' && bytes[begin] == '\n';
+  if (surplus.empty() || (!is_shifted && (surplus == "\n" || surplus == "\r\n"))) return;
+  text.fail(begin, fmt::format("the file has {} byte{} more than {} x {} grey values need{}", surplus.size(),
+                               surplus.size() == 1 ? "" : "s", image.width, image.height,
+                               is_shifted ? ": its header must end with LF, not CR LF" : ""));
 }
 
 // One byte per sample, or two bytes, the higher first, if maxval needs them.
@@ -85,6 +103,7 @@ void read_raw_samples(std::string_view bytes, const PgmText& text, MapImage& ima
   const std::size_t there = (bytes.size() - begin) / sample_bytes;
   if (there < image.level.size())
     text.fail(begin, fmt::format("the image ends after {} of {} grey values", there, image.level.size()));
+  check_surplus(bytes, text, image, sample_bytes);
   for (std::size_t i = 0; i < image.level.size(); ++i) {
     const std::size_t at = begin + i * sample_bytes;
     std::uint32_t level = static_cast<unsigned char>(bytes[at]);

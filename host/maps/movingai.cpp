@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
 #include <string_view>
 
 #include "host/errors/input_error.hpp"
@@ -25,6 +26,28 @@ std::string shortened(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';
   return text.size() > longest ? out + "..." : out;
+}
+
+// A line without what editors add and nobody sees: a byte order mark, blanks at the end.
+std::string_view content(const TextLines& lines, std::size_t line) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::string_view text = lines.line(line);
+  if (line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text.substr(0, text.find_last_not_of(" \t\r\v\f") + 1);
+}
+
+// Where a line looks as if it began with the word: the byte that it has besides; else "".
+std::string hidden_byte(std::string_view line, std::string_view word) {
+  const auto shows = [](char c) { return c > ' ' && c <= '~'; };
+  std::string looks;
+  std::copy_if(line.begin(), line.end(), std::back_inserter(looks), shows);
+  if (!looks.starts_with(word)) return "";
+  const auto hidden =
+      std::find_if(line.begin(), line.end(), [&](char c) { return !shows(c) && c != ' ' && c != '\t'; });
+  const auto byte = hidden != line.end() ? hidden : std::find_if_not(line.begin(), line.end(), shows);
+  if (byte == line.end()) return "";
+  return fmt::format(" (column {} has the byte 0x{:02X}, which does not show)", byte - line.begin() + 1,
+                     static_cast<unsigned char>(*byte));
 }
 
 // The fields of a line: between tabs if it has any, otherwise between blanks.
@@ -58,16 +81,19 @@ struct Size {
 
 // TextLines 1 to 4: type, height, width, map.
 Size read_header(const TextLines& lines) {
-  const auto type = fields_of(lines.line(1));
-  if (type.size() != 2 || type[0].text != "type") lines.fail(1, 1, "expected 'type octile': this is no MovingAI map");
+  const auto type = fields_of(content(lines, 1));
+  if (type.size() != 2 || type[0].text != "type")
+    lines.fail(1, 1, "expected 'type octile': this is no MovingAI map" + hidden_byte(lines.line(1), "type"));
   Size size;
   for (std::size_t line = 2; line <= 3; ++line) {
-    const auto fields = fields_of(lines.line(line));
+    const auto fields = fields_of(content(lines, line));
     std::uint32_t Size::*side = nullptr;
     if (fields.size() == 2 && fields[0].text == "height") side = &Size::height;
     if (fields.size() == 2 && fields[0].text == "width") side = &Size::width;
-    if (!side || size.*side != 0)
-      lines.fail(line, 1, fmt::format("expected '{} N'", size.height == 0 ? "height" : "width"));
+    if (!side || size.*side != 0) {
+      const char* const expected = size.height == 0 ? "height" : "width";
+      lines.fail(line, 1, fmt::format("expected '{} N'{}", expected, hidden_byte(lines.line(line), expected)));
+    }
     size.*side =
         whole_number(lines, line, fields[1], side == &Size::height ? "height" : "width", 1, core::max_map_side);
   }
@@ -75,18 +101,20 @@ Size read_header(const TextLines& lines) {
     lines.fail(
         3, 1,
         fmt::format("the map is too large: {} x {} cells, at most {}", size.width, size.height, core::max_map_cells));
-  if (lines.line(4) != "map") lines.fail(4, 1, "expected 'map'");
+  if (content(lines, 4) != "map") lines.fail(4, 1, "expected 'map'" + hidden_byte(lines.line(4), "map"));
   return size;
 }
 
 void read_row(const TextLines& lines, std::size_t line, std::uint32_t width, std::uint8_t* row) {
-  const std::string_view letters = lines.line(line);
+  const std::string_view letters = content(lines, line);
   for (std::size_t x = 0; x < std::min<std::size_t>(letters.size(), width); ++x) {
     const bool is_free = free_letters.find(letters[x]) != std::string_view::npos;
     if (!is_free && blocked_letters.find(letters[x]) == std::string_view::npos)
       lines.fail(line, x + 1,
-                 fmt::format("unknown cell '{}' (known: '.', 'G', 'S' free; '@', 'O', 'T', 'W' blocked)",
-                             shortened(letters.substr(x, 1))));
+                 fmt::format("unknown cell {} (known: '.', 'G', 'S' free; '@', 'O', 'T', 'W' blocked)",
+                             letters[x] >= ' ' && letters[x] <= '~'
+                                 ? fmt::format("'{}'", letters[x])
+                                 : fmt::format("of byte 0x{:02X}", static_cast<unsigned char>(letters[x]))));
     row[x] = is_free ? 1 : 0;
   }
   if (letters.size() != width)
@@ -114,7 +142,7 @@ bool is_length(std::string_view text) {
 
 MovingAiTask read_task(const TextLines& lines, std::size_t line, const core::CellMap& map) {
   constexpr std::size_t field_count = 9;
-  const auto fields = fields_of(lines.line(line));
+  const auto fields = fields_of(content(lines, line));
   if (fields.size() != field_count)
     lines.fail(line, fields.empty() ? 1 : fields.back().column,
                fmt::format("a task has {} fields (bucket, map, width, height, start x, y, goal x, y, length), not {}",
@@ -147,21 +175,23 @@ core::CellMap read_movingai_map(const std::filesystem::path& file, const std::st
     read_row(lines, line, size.width, map.free.data() + std::size_t{size.height - 1 - y} * size.width);
   }
   for (std::size_t line = header_lines + 1 + size.height; line <= lines.count(); ++line)
-    if (!lines.line(line).empty()) lines.fail(line, 1, fmt::format("a row beyond height = {}", size.height));
+    if (!content(lines, line).empty()) lines.fail(line, 1, fmt::format("a row beyond height = {}", size.height));
   return map;
 }
 
 MovingAiTasks read_movingai_tasks(const std::filesystem::path& file, const std::string& shown_path,
                                   const core::CellMap& map) {
   const TextLines lines(read_file(file, shown_path), shown_path);
-  const auto version = fields_of(lines.line(1));
+  const auto version = fields_of(content(lines, 1));
   if (version.size() != 2 || version[0].text != "version" || (version[1].text != "1" && version[1].text != "1.0"))
-    lines.fail(1, 1, "expected 'version 1': this is no MovingAI scenario of version 1");
+    lines.fail(
+        1, 1,
+        "expected 'version 1': this is no MovingAI scenario of version 1" + hidden_byte(lines.line(1), "version"));
   MovingAiTasks out{shown_path, "", {}};
   for (std::size_t line = 2; line <= lines.count(); ++line) {
-    if (lines.line(line).empty()) continue;
+    if (content(lines, line).empty()) continue;
     out.tasks.push_back(read_task(lines, line, map));
-    if (out.map_name.empty()) out.map_name = std::string(fields_of(lines.line(line))[1].text);
+    if (out.map_name.empty()) out.map_name = std::string(fields_of(content(lines, line))[1].text);
   }
   return out;
 }

@@ -171,21 +171,32 @@ std::optional<int> chance(const MapImage& image, std::size_t pixel, const Shades
       std::rint(100.0 * (occupied - shades.free_thresh) / (shades.occupied_thresh - shades.free_thresh)));
 }
 
-core::CellMap cells_of(const MapImage& image, const Shades& shades, UnknownCells unknown) {
-  core::CellMap map{image.width, image.height, {}};
-  map.free.resize(image.level.size());
+// Whether map_saver would write an unknown cell like this.
+bool is_unknown_grey(const MapImage& image, std::size_t pixel, const Shades& shades) {
+  constexpr long unknown_grey = 205;
+  return shades.mode == Mode::trinary && !shades.negate && (image.alpha.empty() || image.alpha[pixel] == 255) &&
+         std::lround(255.0 * image.level[pixel] / image.white) == unknown_grey;
+}
+
+void add_cells(const MapImage& image, const Shades& shades, std::optional<UnknownCells> unknown, RosMap& map) {
+  map.cells = {image.width, image.height, std::vector<std::uint8_t>(image.level.size())};
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x) {
-      const auto likely = chance(image, std::size_t{y} * image.width + x, shades);
+      const std::size_t pixel = std::size_t{y} * image.width + x;
+      auto likely = chance(image, pixel, shades);
+      const bool is_grey = is_unknown_grey(image, pixel, shades);
+      if (is_grey && unknown) likely.reset();
       const bool free = likely ? *likely <= max_free_probability : unknown == UnknownCells::free;
-      map.free[std::size_t{image.height - 1 - y} * image.width + x] = free ? 1 : 0;
+      if (!likely) ++map.unknown;
+      if (is_grey && likely && free) ++map.unknown_as_free;
+      map.cells.free[std::size_t{image.height - 1 - y} * image.width + x] = free ? 1 : 0;
     }
-  return map;
 }
 
 }  // namespace
 
-RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_path, UnknownCells unknown) {
+RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_path,
+                    std::optional<UnknownCells> unknown) {
   const MapFile yaml(read_file(file, shown_path, max_yaml_bytes), shown_path);
   RosMap map;
   const YAML::Node name = yaml.need("image");
@@ -197,7 +208,8 @@ RosMap read_ros_map(const std::filesystem::path& file, const std::string& shown_
   if (std::error_code ignored; !std::filesystem::is_regular_file(map.image, ignored))
     yaml.fail(name.Mark(), fmt::format("no file '{}' beside the map file", image));
   const std::string shown_image = (std::filesystem::path(shown_path).parent_path() / image).lexically_normal().string();
-  map.cells = cells_of(read_map_image(map.image, shown_image), shades, unknown);
+  map.free_thresh = shades.free_thresh;
+  add_cells(read_map_image(map.image, shown_image), shades, unknown, map);
   return map;
 }
 

@@ -22,6 +22,7 @@
 #include "host/errors/machine_error.hpp"
 #include "host/process/box.hpp"
 #include "host/process/orphans.hpp"
+#include "host/process/resource_limits.hpp"
 #include "host/program/executable.hpp"
 
 namespace dmrp::host {
@@ -81,7 +82,7 @@ const char* ProcessEnding::fault_kind() const {
 }
 
 std::string ProcessEnding::explain(std::int64_t memory_mb) const {
-  if (exit_status == out_of_memory_exit) return fmt::format("needs more than {} MB of memory", memory_mb);
+  if (exit_status == out_of_memory_exit) return lack_of_memory(memory_mb);
   if (signal == SIGSYS) return "made a system call that its process may not make";
   if (signal == SIGXCPU) return fmt::format("took more than {:.3g} s of processor time", cpu_limit_s);
   if (signal != 0) return fmt::format("crashed (signal {}, {})", signal, strsignal(signal));

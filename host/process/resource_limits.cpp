@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/resource_limits.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -19,6 +20,18 @@ void set_resource_limits(std::int64_t memory_mb) {
   memory.rlim_cur = std::min(static_cast<rlim_t>(memory_mb) << 20, memory.rlim_cur);
   memory.rlim_max = memory.rlim_cur;
   setrlimit(RLIMIT_DATA, &memory);
+}
+
+std::string lack_of_memory(std::int64_t memory_mb) {
+  rlim_t least = RLIM_INFINITY;
+  for (const auto resource : {RLIMIT_DATA, RLIMIT_AS}) {
+    rlimit now{};
+    if (getrlimit(resource, &now) == 0) least = std::min(least, now.rlim_cur);
+  }
+  if (least != RLIM_INFINITY && (memory_mb == 0 || static_cast<std::int64_t>(least >> 20) < memory_mb))
+    return fmt::format("found no more memory: the shell or job allows a process {} MB (ulimit -v, -d)", least >> 20);
+  if (memory_mb == 0) return "found no more memory: the machine has none left";
+  return fmt::format("needs more than {} MB of memory", memory_mb);
 }
 
 double processor_time_s(double wall_s, unsigned sharers) {

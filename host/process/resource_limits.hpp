@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace dmrp::host {
 
@@ -10,6 +11,10 @@ namespace dmrp::host {
 // shares with nobody, touched or not. Reserved address space does not count. Disables core dumps. A lower limit that is
 // already set stays.
 void set_resource_limits(std::int64_t memory_mb);
+
+// What a process lacked that found no more memory: its own limit of `memory_mb` (0: it has none), or one that was there
+// before, of the shell or job, or the machine.
+std::string lack_of_memory(std::int64_t memory_mb);
 
 // The processor time of a process that may take `wall_s`, if so many share the processors: each has its share of them, and
 // at least one.

@@ -34,11 +34,18 @@ void check_roughness(const TomlValue& at, const core::CellMap& cells) {
     at.fail(fmt::format("the map is too rough: its blocked cells make {} boxes, at most {}", boxes, max_boxes));
 }
 
-TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const NamedFile& file, core::Scenario& scenario) {
+MapCensus census_of(const fs::path& file, const core::CellMap& cells) {
+  return {file.filename().string(), cells.free.size(),
+          static_cast<std::size_t>(std::count(cells.free.begin(), cells.free.end(), 1))};
+}
+
+TaskMap read_movingai(const TomlTable& table, const TomlValue& name, const NamedFile& file, ScenarioFile& out) {
+  core::Scenario& scenario = out.scenario;
   table.allow_only({"file", "cell_m"}, " for a MovingAI map");
   TaskMap map;
   map.cells = read_movingai_map(file.path, file.shown_path);
   check_roughness(name, map.cells);
+  out.census = census_of(file.path, map.cells);
   const auto cell = table.find("cell_m");
   if (cell) {
     cell->positive();
@@ -56,11 +63,20 @@ void read_map_server(const TomlTable& root, const TomlTable& table, const TomlVa
   table.allow_only({"file", "unknown"}, " for a map of map_server");
   if (const auto origin = root.find_table("scenario")->find("origin_m"))
     origin->fail_at_key("a map of map_server has an 'origin' of its own");
-  auto unknown = UnknownCells::occupied;
-  if (const auto asked = table.find("unknown"); asked && asked->choice(unknown_choices) == "free")
-    unknown = UnknownCells::free;
+  std::optional<UnknownCells> unknown;
+  if (const auto asked = table.find("unknown"))
+    unknown = asked->choice(unknown_choices) == "free" ? UnknownCells::free : UnknownCells::occupied;
   const RosMap map = read_ros_map(file.path, file.shown_path, unknown);
   check_roughness(name, map.cells);
+  MapCensus& census = out.census.emplace(census_of(file.path, map.cells));
+  census.unknown = map.unknown;
+  census.unknown_is_free = unknown == UnknownCells::free;
+  if (census.unknown_is_free) census.free -= map.unknown;
+  if (map.unknown_as_free > 0)
+    out.warnings.push_back(fmt::format(
+        "{}: {} cell{} of grey 205, as map_saver writes unknown ones, count as free by free_thresh = {}: unknown = "
+        "\"occupied\" in [map] makes them walls, \"free\" keeps them free",
+        name.place(), map.unknown_as_free, map.unknown_as_free == 1 ? "" : "s", map.free_thresh));
   out.files.push_back(map.image);
   out.scenario.edge_is_open = true;
   core::PlacedBoxes placed = core::place_boxes(map.cells, map.resolution_m, map.origin);
@@ -88,7 +104,7 @@ std::optional<TaskMap> read_map(const TomlTable& root, const fs::path& file, con
   const TomlValue name = table->need("file");
   out.size = name.position();
   const NamedFile map = file_of_type(name, file, shown_path, {".map", ".yaml", ".yml"}, out);
-  if (map.path.extension() == ".map") return read_movingai(*table, name, map, out.scenario);
+  if (map.path.extension() == ".map") return read_movingai(*table, name, map, out);
   read_map_server(root, *table, name, map, out);
   return std::nullopt;
 }

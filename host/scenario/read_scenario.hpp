@@ -44,6 +44,8 @@ struct ScenarioFile {
   std::vector<SourcePosition> flows;     // parallel to scenario.flows
   std::vector<TrackPlace> tracks;        // parallel to scenario.tracks
   std::vector<RecordingPlace> recordings;
+  std::optional<MapCensus> census;
+  std::vector<std::string> warnings;  // one line each
 };
 
 // All tables of the format, with their keys.

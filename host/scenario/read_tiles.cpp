@@ -83,6 +83,8 @@ void read_tiles(const TomlTable& root, const fs::path& file, ScenarioFile& out) 
   mistakes.end();
   const TomlValue of = table->need("of");
   out.size = of.position();
+  out.census = tile.census;
+  out.warnings = tile.warnings;
   out.files.insert(out.files.end(), tile.files.begin(), tile.files.end());
 
   core::Scenario& scenario = out.scenario;

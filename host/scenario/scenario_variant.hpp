@@ -2,6 +2,7 @@
 // scenario_variant.hpp: a scenario with a number of robots, as used by an experiment.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -25,6 +26,18 @@ struct Grade {
   bool harder_when_higher = true;
   double level = 0.0;
 };
+
+// What the cells of a map are.
+struct MapCensus {
+  std::string file;  // its name, without folder
+  std::size_t cells = 0;
+  std::size_t free = 0;     // known to be
+  std::size_t unknown = 0;  // of the rest, which are walls
+  bool unknown_is_free = false;
+};
+
+// "800 cells: 77 % free, 21 % walls, 2 % unknown (count as walls)"
+std::string census_text(const MapCensus& census);
 
 // The largest deviations of a listed robot's start, drawn for each trial.
 struct StartJitter {
@@ -53,7 +66,8 @@ struct ScenarioVariant {
   core::TaskWishes wishes{};                   // for the drawn tasks
   Grade grade{};
   StartJitter jitter{};
-  PeopleChange people{};  // applied
+  PeopleChange people{};              // applied
+  std::optional<MapCensus> census{};  // if it has a [map]
   std::vector<SweptValue> swept{};
   std::optional<core::SimulationSettings> simulation{};  // if [simulation] has a sweep: in place of the experiment's
 };

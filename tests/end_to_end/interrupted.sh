@@ -4,7 +4,7 @@
 # (SIGTERM, because a shell starts background processes with SIGINT ignored.)
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-run=$scratch/run
+run="$scratch/a run"
 "$host" "$here/crossing.toml" --quiet --jobs 2 --trials 100 --out "$run" >"$scratch/stdout" 2>"$scratch/stderr" &
 host_process=$!
 
@@ -29,6 +29,8 @@ kept=$(query "$run" "SELECT count(*) FROM trial")
 ((kept >= 3 && kept < 400)) || fail "$kept trials were kept of 400"
 [[ $(query "$run" "SELECT count(*) FROM fault") == 0 ]] || fail "an interruption is no fault"
 [[ $(messages) == 1 ]] || fail "one line should say how to go on: $(cat "$scratch/stderr")"
+grep -qF "continue with dmrp-host run $here/crossing.toml --trials 100 --resume --out '$run'" "$scratch/stderr" ||
+  fail "the command cannot be pasted: $(cat "$scratch/stderr")"
 [[ -s $run/trials.csv && -s $run/summary.csv ]] || fail "the tables of what was finished are missing"
 
 expect_status 2 "$host" "$here/crossing.toml" --quiet --resume --trials 99 --out "$run"

@@ -36,10 +36,11 @@ cmp -s "$scratch/stdout" "$scratch/of_joined" || fail "the traces differ"
 # shards with unfinished trials are joined; --resume runs what is missing
 cp -r "$scratch/b" "$scratch/unfinished"
 query "$scratch/unfinished" "PRAGMA foreign_keys = ON; DELETE FROM trial WHERE id = 4"
-expect_status 0 "$host" merge "$scratch/part" "$scratch/a" "$scratch/unfinished" "$scratch/c"
-grep -q "7 of 8 trials are finished: continue with --resume" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
-run --resume --out "$scratch/part"
-[[ $(values_of "$scratch/part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
+expect_status 0 "$host" merge "$scratch/a part" "$scratch/a" "$scratch/unfinished" "$scratch/c"
+again=$(sed -n 's/^7 of 8 trials are finished: continue with dmrp-host //p' "$scratch/stderr")
+[[ $again ]] || fail "$(cat "$scratch/stderr")"
+eval "expect_status 0 \"$host\" $again --quiet" # as it is pasted
+[[ $(values_of "$scratch/a part") == "$(values_of "$scratch/whole")" ]] || fail "--resume should complete a part"
 
 cp -r "$scratch/a" "$scratch/relabelled"
 forge "$scratch/relabelled" "UPDATE trial SET local_controller = 'better' WHERE id = 0"

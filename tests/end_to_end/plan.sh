@@ -169,6 +169,7 @@ broken "3:[0-9]*: a task has 9 fields .*, not 8" '3s/\t6$//' scen
 broken "2:15: the start's x must be 0 to 6, not 7" '2s/\t0\t2\t6/\t7\t2\t6/' scen
 broken "2:19: the goal \(6, 1\) is on a blocked cell" '2s/\t6\t2\t6$/\t6\t1\t6/' scen
 broken "3:1: agents 0 and 1 both start at \(0, 2\)" '3s/\t6\t2\t0/\t0\t2\t1/' scen
+broken "3:1: agents 0 and 1 both end at \(6, 2\)" '3s/\t0\t2\t6$/\t6\t2\t6/' scen
 expect_mistake "no such planner.*did you mean 'dmrp.planner.cbs'" --scenario mall --planner dmrp.planner.csb
 expect_mistake "^--set node_limits=4: unknown key .*did you mean 'node_limit'" --scenario mall --planner dmrp.planner.cbs --set node_limits=4
 expect_mistake "^--set node_limit=few: 'node_limit' must be an integer" --scenario mall --planner dmrp.planner.cbs --set node_limit=few

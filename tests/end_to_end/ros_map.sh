@@ -11,6 +11,8 @@ cd "$work" || exit 1
 
 expect_status 0 "$host" validate ros_map.toml
 [[ ! -s $scratch/stderr ]] || fail "a warning: $(cat "$scratch/stderr")"
+census="^flat.yaml: [0-9]* cells: [0-9]* % free, [0-9]* % walls, [0-9]* % unknown (count as walls)$"
+grep -q "$census" "$scratch/stdout" || fail "no census: $(cat "$scratch/stdout")"
 expect_status 0 "$host" ros_map.toml --out "$scratch/run" --quiet
 [[ $(query "$scratch/run" "SELECT count(*) FROM trial WHERE outcome <> 'succeeded'") == 0 ]] ||
   fail "a controller does not arrive: $(query "$scratch/run" "SELECT local_controller, outcome FROM trial")"
@@ -23,7 +25,20 @@ done
 sed -n '/dmrp.controller.dwa/,/^$/p' "$scratch/run/effective.toml" >"$scratch/dwa.toml"
 grep -q '^occdist_scale = ' "$scratch/dwa.toml" || fail "effective.toml lacks DWA's parameters"
 expect_status 0 "$host" draw ros_map/flat.toml --svg "$scratch/flat.svg"
+grep -q "$census" "$scratch/stderr" || fail "no census: $(cat "$scratch/stderr")"
 (($(grep -c "fill:rgb(29.0" "$scratch/flat.svg") >= 2)) || fail "the map's cells are not in the picture" # the legend is one wall
+
+# as nav2's map_saver writes thresholds: what `unknown` says holds, and without it there is a warning
+sed -i 's/^free_thresh:.*/free_thresh: 0.25/' ros_map/flat.yaml
+sed -i '3,$ {s/^9$/255/; s/\b7\b/205/g; s/\b9\b/254/g}' ros_map/flat.pgm
+expect_status 0 "$host" draw ros_map/flat.toml --svg "$scratch/same.svg"
+cmp -s "$scratch/flat.svg" "$scratch/same.svg" || fail "unknown cells are no walls"
+sed -i.whole '/^unknown/d' ros_map/flat.toml
+expect_status 0 "$host" validate ros_map.toml
+grep -q "cells of grey 205, .* count as free by free_thresh = 0.25: unknown = \"occupied\"" "$scratch/stderr" ||
+  fail "no warning: $(cat "$scratch/stderr")"
+mv ros_map/flat.toml.whole ros_map/flat.toml
+cp "$source_dir"/examples/ros_map/flat.* ros_map
 
 contents() { find "$work" -type f -exec sha256sum {} + | sort; }
 # expect_mistake FILE SED PATTERN: of the answer to FILE, changed by sed; then restores FILE

@@ -79,7 +79,13 @@ TEST_CASE("without room for all there are fewer tasks, and has_room_for_tasks() 
   CHECK(sure >= 4);  // 13 cells a robot, and 81 about its own start
   for (std::uint64_t seed = 0; seed < 200; ++seed) REQUIRE(random_tasks(grid, sure, seed).size() == sure);
   // a world too small for a way of 5 m
-  CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 1, 1).empty());
+  TaskLack lack = TaskLack::nothing;
+  CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 1, 1, {}, &lack).empty());
+  CHECK(lack == TaskLack::length);
+  random_tasks(grid, 1000, 1, {}, &lack);
+  CHECK((lack == TaskLack::start || lack == TaskLack::goal));
+  random_tasks(grid, 1, 1, {}, &lack);
+  CHECK(lack == TaskLack::nothing);
   CHECK(random_tasks(grid_of(empty_scenario(4, 4)), 0, 1).empty());
 }
 

@@ -356,9 +356,8 @@ TEST_CASE("mistakes in the number of robots") {
         "experiment.toml:9:10: scenario 'hall' lists 2 robots, not 3 ('tasks' = 'drawn' draws them)");
   CHECK(at("tasks = \"drawn\"") == "experiment.toml:9:1: 'tasks' that are drawn need 'robots', their number");
   CHECK_THAT(at("tasks = \"random\"\nrobots = 1"), Catch::Contains("experiment.toml:9:9: 'tasks' must be"));
-  CHECK_THAT(at("robots = 100"),
-             Catch::StartsWith("experiment.toml:9:10: scenario 'hall' has room for ") &&
-                 Catch::EndsWith("(repetition 0: starts, and goals, more than 2 m apart), not 100"));
+  CHECK_THAT(at("robots = 100"), Catch::StartsWith("experiment.toml:9:10: scenario 'hall' has room for ") &&
+                                     Catch::EndsWith("s must be more than 2 m apart), not 100"));
 }
 
 TEST_CASE("a world of tiles has everything from its tile but the robots") {
@@ -447,6 +446,27 @@ TEST_CASE("recorded people need no pedestrian model") {
              with(scenario_text, "people = 2", "people = 0") + "[[recording]]\nfile = \"crowd.csv\"\n");
   const Experiment e = load(with(with_robots("robots = [0, 2]"), "[[pedestrian_model]]\nuse = \"test.model\"\n", ""));
   for (const Combination& combination : combinations(e)) CHECK(combination.pedestrian_model == -1);
+}
+
+TEST_CASE("a recording of what nobody walks is warned of") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", std::string(scenario_text) + "[[recording]]\nfile = \"crowd.csv\"\n");
+  const auto warnings = [](const std::string& rows) {
+    write_file("hall/crowd.csv", "time,id,x,y\n" + rows);
+    std::string out;
+    for (const std::string& warning : load(experiment_text).warnings)
+      if (warning.starts_with("hall/crowd.csv")) out += warning + "\n";
+    return out;
+  };
+  CHECK(warnings("0,1,2,1\n1,1,6.9,1\n1,2,4,1\n2,2,6,1\n") == "");
+  CHECK(warnings("0,1,2,1\n1,1,2,1.5\n2,1,8,1\n3,1,2,1\n0,2,2,7\n1,2,9,7\n0,3,3,1\n") ==
+        "hall/crowd.csv:4:1: person 1 moves at 6.0 m/s, faster than 5 m/s (and 1 more)\n");
+  CHECK(warnings("0,1,4,4\n9,1,6,4\n") ==
+        "hall/crowd.csv:3:1: person 1 goes through a wall or shape, from (4, 4) to (6, 4)\n");
+  // at the start of the trial, in between two rows
+  CHECK(warnings("-1,1,0.6,1\n1,1,0.6,0.5\n") ==
+        "hall/crowd.csv:2:1: person 1 is on the start of robot 0 at 0 s, 0.27 m from it\n");
+  CHECK(warnings("1,1,0.5,0.5\n2,1,1,1\n") == "");
 }
 
 TEST_CASE("mistakes in a recording") {
@@ -667,7 +687,13 @@ TEST_CASE("plan uses random tasks for a seed") {
   use_random_tasks(e, 4, 3);
   CHECK(e.scenarios[0].scenario.robots.size() == 4);
   CHECK_THROWS_WITH(use_random_tasks(e, 100, 3), Catch::StartsWith("--agents 100: scenario 'hall' has room for ") &&
-                                                     Catch::EndsWith("robots with random tasks"));
+                                                     Catch::EndsWith("s must be more than 2 m apart"));
+  write_file("cell/scenario.toml",
+             "[scenario]\nname = \"cell\"\ntitle = \"Cell\"\ndescription = \"small\"\nsize_m = [4, 4]\n");
+  Experiment small = adhoc_experiment("cell/scenario.toml");
+  CHECK_THROWS_WITH(use_random_tasks(small, 1, 3),
+                    "--agents 1: scenario 'cell' has room for 0 robots with random tasks: a goal must be at least 5 m "
+                    "from its start");
 }
 
 }  // namespace check_worlds_test

@@ -80,6 +80,39 @@ TEST_CASE("a map is read, its first line above all others") {
   CHECK(host::read_movingai_map("odd.map", "odd.map").free == expected);
 }
 
+TEST_CASE("what editors add and nobody sees is no part of a map or task") {
+  const ExperimentFolder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  write_file("yard.map", mark + "type octile \r\nheight 3\t\nwidth 5  \nmap \n.GS..  \n@OTW.\r\n..... \t\r\n \n\t\r\n");
+  const core::CellMap map = host::read_movingai_map("yard.map", "yard.map");
+  CHECK(map.free == std::vector<std::uint8_t>{1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1});
+  write_file("yard.scen", mark + "version 1 \n0\tyard.map\t5\t3\t0\t0\t0\t2\t8.0\t \r\n  \n");
+  CHECK(host::read_movingai_tasks("yard.scen", "yard.scen", map).tasks.size() == 1);
+
+  // a byte that changes the word is named
+  const auto told = [&](const std::string& from, const std::string& to) -> std::string {
+    write_file("yard.map", with(map_text, from, to));
+    try {
+      host::read_movingai_map("yard.map", "yard.map");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  CHECK(told("map\n", "map\xC2\xA0\n") ==
+        "yard.map:4:1: expected 'map' (column 4 has the byte 0xC2, which does not show)");
+  CHECK(told("map\n", " map\n") == "yard.map:4:1: expected 'map' (column 1 has the byte 0x20, which does not show)");
+  CHECK(told("map\n", "mop\xC2\n") == "yard.map:4:1: expected 'map'");
+  CHECK(told("height 3",
+             "height\xC2\xA0"
+             "3") == "yard.map:2:1: expected 'height N' (column 7 has the byte 0xC2, which does not show)");
+  CHECK(told("type", "\xFF\xFEtype") ==
+        "yard.map:1:1: expected 'type octile': this is no MovingAI map (column 1 has the "
+        "byte 0xFF, which does not show)");
+  CHECK(told("@OT", std::string("@\0T", 3)) ==
+        "yard.map:6:2: unknown cell of byte 0x00 (known: '.', 'G', 'S' free; '@', 'O', 'T', 'W' blocked)");
+}
+
 TEST_CASE("tasks are read, by tabs or blanks") {
   const ExperimentFolder folder;
   write_file("yard.map", map_text);

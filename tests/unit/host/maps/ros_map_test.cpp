@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/random.hpp>
+#include <optional>
 #include <regex>
 
 #include "core/scene/static_geometry.hpp"
@@ -58,7 +59,7 @@ void write_attic() {
   write_file("attic/attic.pgm", pgm_text);
 }
 
-host::RosMap read_map(UnknownCells unknown = UnknownCells::occupied) {
+host::RosMap read_map(std::optional<UnknownCells> unknown = std::nullopt) {
   return host::read_ros_map("attic/attic.yaml", "attic/attic.yaml", unknown);
 }
 
@@ -129,6 +130,17 @@ host::RosMap read_with_image(const std::string& image, const std::string& more_y
   return read_map();
 }
 
+// Of an experiment in the attic.
+std::string message_of_attic() {
+  try {
+    write_file("attic/scenario.toml", scenario_text_of_map);
+    load(with(experiment_text, "./hall/scenario.toml", "./attic/scenario.toml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
 const Cells attic_cells = {1, 1, 0, 1, 0, 0};
 
 TEST_CASE("a map of map_server is read, the image's first row above all others") {
@@ -158,7 +170,7 @@ TEST_CASE("a map of map_server is read, the image's first row above all others")
 TEST_CASE("images of every kind give the same map") {
   const ExperimentFolder folder;
   CHECK(read_with_image("P5 3 2 255\n" + bytes_of({254, 205, 0, 254, 254, 0})).cells.free == attic_cells);
-  // what follows the image is none of ours
+  // a line end after the image is none of it
   CHECK(read_with_image("P5 3 2 255\n" + bytes_of({254, 205, 0, 254, 254, 0}) + "\n").cells.free == attic_cells);
   CHECK(read_with_image("P5\n#a\n#b\n3 #c\n2\n100\t" + bytes_of({100, 80, 0, 99, 100, 1})).cells.free == attic_cells);
   CHECK(read_with_image("P5 3 2 65535\n" + bytes_of({255, 255, 205, 0, 0, 9, 255, 0, 254, 0, 1, 0})).cells.free ==
@@ -178,6 +190,87 @@ TEST_CASE("images of every kind give the same map") {
   // one bit: black and white
   CHECK(read_with_image(png_of({PNG_COLOR_TYPE_GRAY, 1}, 3, bytes_of({0b10000000, 0b11000000}))).cells.free ==
         attic_cells);
+}
+
+TEST_CASE("grey 205 is unknown if the scenario says what unknown cells are, and else not free unseen") {
+  const ExperimentFolder folder;
+  write_attic();
+  // as nav2's map_saver writes it: 1 - 205 / 255 is below
+  write_file("attic/attic.yaml", with(yaml_text, "0.196", "0.25"));
+  CHECK(read_map().cells.free == Cells{1, 1, 0, 1, 1, 0});
+  CHECK(read_map().unknown_as_free == 1);
+  CHECK(read_map().unknown == 0);
+  CHECK(read_map(UnknownCells::occupied).cells.free == attic_cells);
+  CHECK(read_map(UnknownCells::occupied).unknown_as_free == 0);
+  CHECK(read_map(UnknownCells::occupied).unknown == 1);
+  CHECK(read_map(UnknownCells::free).cells.free == Cells{1, 1, 0, 1, 1, 0});
+
+  SECTION("with thresholds by which it is occupied") {
+    write_file("attic/attic.yaml", with(with(yaml_text, "0.196", "0.1"), "0.65", "0.15"));
+    CHECK(read_map().cells.free == attic_cells);
+    CHECK(read_map(UnknownCells::free).cells.free == Cells{1, 1, 0, 1, 1, 0});
+  }
+  SECTION("other greys, other modes and negated images are what the thresholds say") {
+    write_file("attic/attic.pgm", with(pgm_text, "205", "206"));
+    CHECK(read_map(UnknownCells::occupied).cells.free == Cells{1, 1, 0, 1, 1, 0});
+    CHECK(read_map().unknown_as_free == 0);
+    write_attic();
+    write_file("attic/attic.yaml", with(yaml_text, "0.196", "0.25") + "mode: scale\n");
+    CHECK(read_map(UnknownCells::occupied).cells.free == Cells{1, 1, 0, 1, 1, 0});
+    CHECK(read_map().unknown_as_free == 0);
+    write_file("attic/attic.yaml", with(with(yaml_text, "0.65", "0.9"), "negate: 0", "negate: 1"));
+    write_file("attic/attic.pgm", with(pgm_text, "205", "40"));
+    CHECK(read_map(UnknownCells::occupied).cells.free == Cells{0, 0, 1, 0, 1, 1});
+  }
+  SECTION("opaque images of colours") {
+    const std::string rgba = bytes_of({254, 254, 254, 255, 205, 205, 205, 255, 0, 0, 0, 255,  //
+                                       254, 254, 254, 255, 254, 254, 254, 255, 0, 0, 0, 255});
+    write_file("attic/attic.pgm", png_of({PNG_COLOR_TYPE_RGB_ALPHA}, 3, rgba));
+    CHECK(read_map().unknown_as_free == 1);  // the mean of all channels is lighter
+    CHECK(read_map(UnknownCells::occupied).cells.free == attic_cells);
+  }
+  SECTION("a scenario is warned, until it says") {
+    const auto read = [](const std::string& text) {
+      write_file("attic/scenario.toml", text);
+      return host::read_scenario_file(std::filesystem::absolute("attic/scenario.toml"), "attic/scenario.toml");
+    };
+    CHECK(
+        read(scenario_text_of_map).warnings ==
+        std::vector<std::string>{"attic/scenario.toml:7:8: 1 cell of grey 205, as map_saver writes unknown ones, count "
+                                 "as free by free_thresh = 0.25: unknown = \"occupied\" in [map] makes them walls, "
+                                 "\"free\" keeps them free"});
+    for (const char* unknown : {"occupied", "free"})
+      CHECK(read(with(scenario_text_of_map, "attic.yaml\"", std::string("attic.yaml\"\nunknown = \"") + unknown + '"'))
+                .warnings.empty());
+    write_file("attic/attic.yaml", yaml_text);
+    CHECK(read(scenario_text_of_map).warnings.empty());
+  }
+}
+
+TEST_CASE("the census of a map") {
+  const ExperimentFolder folder;
+  write_attic();
+  const auto census = [](const std::string& unknown) {
+    write_file("attic/scenario.toml", with(scenario_text_of_map, "attic.yaml\"", "attic.yaml\"" + unknown));
+    return census_text(
+        *host::read_scenario_file(std::filesystem::absolute("attic/scenario.toml"), "attic/scenario.toml").census);
+  };
+  CHECK(census("") == "6 cells: 50 % free, 33 % walls, 17 % unknown (count as walls)");
+  CHECK(census("\nunknown = \"free\"") == "6 cells: 50 % free, 33 % walls, 17 % unknown (count as free)");
+  CHECK(host::census_text({"", 1, 1}) == "1 cell: 100 % free, 0 % walls");
+  CHECK(host::census_text({"", 1000, 999}) == "1000 cells: 99 % free, under 1 % walls");
+
+  // an image that is read the other way round: the start is in a wall, and so is nearly all
+  std::string dark = "P2 10 10 255\n";
+  for (int i = 0; i < 100; ++i) dark += i == 0 ? "254 " : "0 ";
+  write_file("attic/attic.pgm", dark);
+  CHECK_THAT(message_of_attic(), Catch::Contains("robot 0 starts inside") &&
+                                     Catch::Contains("; hardly anything is free in attic.yaml: 100 cells: 1 % free, "
+                                                     "99 % walls"));
+  std::string light = "P2 10 10 255\n";
+  for (int i = 0; i < 100; ++i) light += i < 10 ? "254 " : "0 ";
+  write_file("attic/attic.pgm", light);
+  CHECK_THAT(message_of_attic(), Catch::Contains("robot 0 starts inside") && !Catch::Contains("hardly"));
 }
 
 TEST_CASE("an image with transparency: trinary takes the mean of all channels, scale treats it as unknown") {
@@ -353,6 +446,17 @@ TEST_CASE("mistakes in a map's image") {
   CHECK(told("P2 3 2 255\n1 2 3\n4 256 6") == at + "3:3: a grey value must be at most 255");
   CHECK(told("P2 3 2 255\n1 2 3\n4 5") == at + "3:4: the file ends before a grey value");
   CHECK(told("P2 3 2 255\n1 2 3\n4 five") == at + "3:3: a grey value must be a whole number");
+  CHECK(told("P5 3 2 255\n1234567") == at + "2:1: the file has 1 byte more than 3 x 2 grey values need");
+  CHECK(told("P5 3 2 255\n123456\n\n") == at + "2:1: the file has 2 bytes more than 3 x 2 grey values need");
+  CHECK(told("P5 3 2 256\n12345678901211") == at + "2:1: the file has 2 bytes more than 3 x 2 grey values need");
+  CHECK(told("P5\r\n3 2\r\n255\r\n123456") ==
+        at + "3:5: the file has 1 byte more than 3 x 2 grey values need: its header must end with LF, not CR LF");
+  CHECK(told("P5\r\n3 2\r\n255\r\n12345\n") ==
+        at + "3:5: the file has 1 byte more than 3 x 2 grey values need: its header must end with LF, not CR LF");
+  CHECK(told("P5 3 2 255\n123456\n") == "no error");
+  CHECK(told("P5 3 2 255\n123456\r\n") == "no error");
+  CHECK(told("P2 3 2 255\n1 2 3\n4 5 6 7") == at + "3:7: the file goes on after the image's last grey value");
+  CHECK(told("P2\r\n3 2\r\n255\r\n1 2 3 4 5 6\r\n# drawn by hand") == "no error");
   CHECK(told("\x89PNG\r\n\x1a\n") == at + "1:1: the PNG image cannot be read: the file ends early");
   std::string large = png_of({}, 3, "123456");
   large[18] = '\x7f';  // of the width

@@ -3,6 +3,7 @@
 
 #include <sched.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -59,6 +60,17 @@ TEST_CASE("the end of a child is explained") {
   const ProcessEnding full = ending_of([] { throw std::bad_alloc(); });
   CHECK(full.fault_kind() == std::string(fault_kind::out_of_memory));
   CHECK(full.explain(400) == "needs more than 400 MB of memory");
+  CHECK(full.explain(0) == "found no more memory: the machine has none left");
+  // a limit of the shell is smaller than the process's own
+  const ProcessEnding limited = ending_of([] {
+    const rlimit data = {rlim_t{300} << 20, rlim_t{300} << 20};
+    setrlimit(RLIMIT_DATA, &data);
+    const bool is_told =
+        lack_of_memory(400) == "found no more memory: the shell or job allows a process 300 MB (ulimit -v, -d)" &&
+        lack_of_memory(0) == lack_of_memory(400) && lack_of_memory(200) == "needs more than 200 MB of memory";
+    _exit(is_told ? 0 : 1);
+  });
+  CHECK(limited.succeeded());
 }
 
 TEST_CASE("a child that takes more processor time than it may is ended") {
