@@ -125,7 +125,7 @@ class WorldCheck {
                        radii_m[0] == radii_m[1] ? "2 sqrt(2) r" : "sqrt(2) (r1 + r2)", safe_cell_m));
   }
 
-  // Where hardly anything of a map is free, its thresholds or its inversion are the mistake.
+  // Shows what the map is made of if hardly anything of it is free: then its thresholds or its inversion are the mistake.
   std::string shown_map() const {
     constexpr double hardly = 0.1;
     if (!file_.census) return "";

@@ -36,7 +36,7 @@ std::string_view content(const TextLines& lines, std::size_t line) {
   return text.substr(0, text.find_last_not_of(" \t\r\v\f") + 1);
 }
 
-// Where a line looks as if it began with the word: the byte that it has besides; else "".
+// Names the byte that hides in a line which looks as if it began with the word; "" if none does.
 std::string hidden_byte(std::string_view line, std::string_view word) {
   const auto shows = [](char c) { return c > ' ' && c <= '~'; };
   std::string looks;

@@ -42,7 +42,7 @@ struct VariantWorld {
   core::WorldView view;
   std::optional<core::WorldView> point_view;  // with the bodies that planners plan for, if these are points
 
-  // As plugins of a kind see it.
+  // Gives the world as plugins of a kind see it.
   const dmrp_world& world_for(std::uint32_t kind) const {
     return kind == DMRP_KIND_GLOBAL_PLANNER && point_view ? point_view->world() : view.world();
   }

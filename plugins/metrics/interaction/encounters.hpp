@@ -124,7 +124,7 @@ class Encounters final : public Metric {
     return ns > 0 ? static_cast<double>(count) / (in_seconds(ns) / 60.0) : undefined;
   }
 
-  // Of `a`, a robot, and `b`, one or a person.
+  // Counts an encounter that begins now. `a` is a robot, `b` another one or a person.
   void meet(const Body& a, const Body& b, std::size_t with, std::int64_t now_ns) {
     Moving wider = b.moving;
     wider.disc.radius_m += distance_m;

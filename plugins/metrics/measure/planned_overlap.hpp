@@ -48,7 +48,8 @@ inline bool overlaps(const Steps& own, std::size_t i, const Steps& other, double
   return false;
 }
 
-// By robot: the share of its waypoints that another robot's path overlaps. `distance_m(a, b)`: of two robots that do.
+// Gives, by robot, the share of its waypoints that another robot's path overlaps: two robots overlap within
+// distance_m(a, b).
 template <class Distance>
 std::vector<double> overlapping_shares(const std::vector<Steps>& all, Distance distance_m, std::size_t window) {
   std::vector<double> shares;

@@ -55,7 +55,7 @@ typedef struct dmrp_local_controller {
   // the one before, often while it still drives: about as often as others replan.
   // A path that is not partial leads to the goal itself, which may lie off the centre of its cell; observation.progress_*
   // refer to the path. After a replan it begins at the cell that the robot was driving to.
-  // With dispatch = "waypoint" or "lockstep" it is a single waypoint, to be approached like a goal.
+  // It is a single waypoint, to be approached like a goal, if dispatch = "waypoint" or "lockstep".
   // Called for active robots alone, as the functions below.
   // [step]
   int32_t (*set_path)(dmrp_instance* self, const dmrp_path_update* update);
