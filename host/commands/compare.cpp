@@ -8,6 +8,7 @@
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/compare/comparison_data.hpp"
+#include "host/compare/reference_run.hpp"
 #include "host/compare/run_comparison.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/program/executable.hpp"
@@ -124,7 +125,9 @@ int compare_command(const CompareOptions& options) {
   std::vector<FailCondition> conditions;
   for (const std::string& text : options.fail_if) conditions.push_back(parse_fail_condition(text));
   const ReportLayouts layouts = read_report_layouts(shared_data_path() / "layouts");
-  const ReportRun before = read_report_run(options.runs.front());
+  const fs::path& first = options.runs.front();
+  const ReportRun before = is_reference_run(first) ? read_reference_run(first, read_report_run(options.runs[1]).metrics)
+                                                   : read_report_run(first);
   check_measured(options, conditions, before, options.runs.front());
   const std::vector<std::string> metrics = metrics_of(options, layouts, conditions);
   ComparedRuns compared{{options.runs.front().string(), before}, {}};
@@ -154,7 +157,9 @@ int compare_command(const CompareOptions& options) {
 void add_compare(CLI::App& app) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "compare runs of the same trials, each with the first");
-  command->add_option("runs", options->runs, "run directories: before and after a change")
+  command
+      ->add_option("runs", options->runs,
+                   "run directories: before and after a change; the first may have trials.csv and manifest.json alone")
       ->required()
       ->expected(2, 1000)
       ->type_name("RUN_DIR");

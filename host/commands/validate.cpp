@@ -4,6 +4,7 @@
 #include "host/commands/command.hpp"
 #include "host/commands/command_output.hpp"
 #include "host/experiment/experiment.hpp"
+#include "host/experiment/identity.hpp"
 #include "host/guests/probe.hpp"
 #include "host/plan/check_plan_files.hpp"
 #include "host/plan/check_planners.hpp"
@@ -51,6 +52,8 @@ int validate_command(const std::filesystem::path& file) {
   const std::size_t count = combinations(experiment).size();
   fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),
              plural(experiment.trials, "repetition"), count * experiment.trials, experiment.metrics.size());
+  fmt::print("Protocol {}: the tasks and rules, without the entries\n",
+             protocol_of(identity_of(experiment)).substr(0, 16));
   fmt::print("{}", map_lines(experiment));
   if (const std::string line = power_line(experiment); !line.empty()) fmt::print("{}\n", line);
   return exit_status::done;

@@ -121,6 +121,15 @@ std::string digest_of(const std::map<std::string, std::string>& identity) {
   return sha256_of_bytes(all);
 }
 
+std::string protocol_of(std::map<std::string, std::string> identity) {
+  std::erase_if(identity, [](const auto& entry) {
+    for (const char* of_entry : {"global_planner[", "local_controller[", "fallback ", "python ", "environment"})
+      if (entry.first.starts_with(of_entry)) return true;
+    return false;
+  });
+  return digest_of(identity);
+}
+
 std::string loaded_digest(const Experiment& experiment) {
   std::string all = digest_of(identity_of(experiment));
   for (const LibraryUse& library : experiment.libraries) {

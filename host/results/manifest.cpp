@@ -103,6 +103,7 @@ Manifest parse_manifest(const Json& json) {
   json.at("commit").get_to(manifest.commit);
   json.at("identity").get_to(manifest.identity);
   json.at("digest").get_to(manifest.digest);
+  manifest.protocol = json.value("protocol", "");
   manifest.experiment = parse_experiment(json.at("experiment"));
   const Json& limits = json.at("plugin_limits");
   manifest.plugin_limits = {limits.at("box"), limits.at("memory"), limits.at("plugins_with_processes")};
@@ -232,6 +233,7 @@ std::string to_json_text(const Manifest& manifest) {
     if (!file.code.empty()) written["code"] = file.code;
   }
   json["digest"] = manifest.digest;
+  json["protocol"] = manifest.protocol;
   json["identity"] = manifest.identity;
   for (const UnrepeatableTrials& some : manifest.not_repeatable)
     json["not_repeatable"].push_back(

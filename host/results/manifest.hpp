@@ -90,7 +90,8 @@ struct Manifest {
   std::string started_at;  // UTC, ISO 8601
   ExperimentFacts experiment;
   Identity identity;
-  std::string digest;  // of the identity
+  std::string digest;      // of the identity
+  std::string protocol{};  // protocol_of() it
   PluginLimits plugin_limits;
   std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;

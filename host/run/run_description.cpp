@@ -78,6 +78,7 @@ Manifest manifest_of(const Experiment& experiment, const Shard& shard, std::uint
   manifest.commit = commit;
   manifest.identity = identity_of(experiment);
   manifest.digest = digest_of(manifest.identity);
+  manifest.protocol = protocol_of(manifest.identity);
   manifest.plugin_limits = limits_of(experiment);
   manifest.left_out = experiment.left_out;
   std::set<fs::path> objects;  // that libraries need

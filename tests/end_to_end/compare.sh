@@ -13,6 +13,23 @@ expect_status 0 "$host" compare "$before" "$after" --fail-if "success < -0.02"
 grep -Eq "^160 trials in both: " "$scratch/stdout" || fail "not all trials are matched: $(cat "$scratch/stdout")"
 grep -Eq "success +160 +40 .* 0.000 \[-0.[0-9]+, \+0.[0-9]+\] +=" "$scratch/stdout" || fail "equal runs differ: $(cat "$scratch/stdout")"
 
+# published results, a folder with manifest.json and trials.csv alone, are compared as the run that they are of
+python3 "$here/../../examples/dmrp1/reference.py" "$before" "$scratch/published"
+for first in "$before" "$scratch/published"; do
+  expect_status 0 "$host" compare "$first" "$after" --metric success,path_length
+  grep -v "^before" "$scratch/stdout" >"$first.txt"
+done
+cmp "$before.txt" "$scratch/published.txt" || fail "published results are compared in another way than their run"
+sed '3s/[^,]*$/many/' "$scratch/published/trials.csv" >"$scratch/trials.csv"
+mv "$scratch/trials.csv" "$scratch/published"
+expect_status 2 "$host" compare "$scratch/published" "$after"
+grep -Eq "published/trials.csv:3:[0-9]+: pfd must be a number, not 'many'" "$scratch/stderr" ||
+  fail "a damaged field is not named: $(cat "$scratch/stderr")"
+sed -i '1s/,seed,/,seeds,/' "$scratch/published/trials.csv"
+expect_status 2 "$host" compare "$scratch/published" "$after"
+grep -q "published/trials.csv:1:1: there is no column seed" "$scratch/stderr" ||
+  fail "a missing column is not named: $(cat "$scratch/stderr")"
+
 # fewer arrive in every trial
 forge "$after" "UPDATE value SET value = 0.1 WHERE metric = 'success' AND subject_kind = 'system'"
 expect_status 1 "$host" compare "$before" "$after" --fail-if "success < -0.02" --fail-if "success > 0.02"

@@ -32,6 +32,7 @@ function facts(data) {
     ['C library', machine.libc],
     ['processor', machine.cpu_level],
     ['seed', run.seed],
+    ['protocol (tasks and rules, without the entries)', (run.manifest.protocol || '').slice(0, 16)],
   ].filter(([, value]) => value);
   return element(
     'dl',
