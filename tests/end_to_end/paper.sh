@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The experiments of the paper and of dmrp1 are valid, and planners have the lengths and overlaps of Table II of the
-# paper (Hu et al., ICRA 2026) in mall and office. Called as: paper.sh DMRP_HOST SOURCE_DIR
+# paper (Hu et al., ICRA 2026) in mall, office and library. Called as: paper.sh DMRP_HOST SOURCE_DIR
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 paper=$2/examples/paper
 
@@ -30,5 +30,8 @@ mall EECBS 63.02 0
 office ECBS-8 32.95 0
 office CBS 42.80 0
 office EECBS 42.80 0
+library ECBS-8 74.96 0
+library CBS 79.72 0
+library EECBS 79.72 0
 END
 [[ $(of_plan mall CBS sto_cell_size) == 0.05 ]] || fail "STO is not on cells of 0.05 m"
