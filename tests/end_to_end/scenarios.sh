@@ -89,9 +89,9 @@ expect_world mall 12 180.0
 expect_encounters mall 2
 
 expect_length library dmrp.planner.cbs 80
-expect_length library dmrp.planner.ecbs8 75.3
+expect_length library dmrp.planner.ecbs8 77.7
 expect_world library 8 180.0
-expect_encounters library 3
+expect_encounters library 1
 
 expect_length office dmrp.planner.cbs 43
 expect_length office dmrp.planner.ecbs8 33
