@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs that several tests read; each takes about a second."""
+"""Runs that several tests read."""
 
 from __future__ import annotations
 
@@ -11,14 +11,16 @@ import pytest
 
 
 BRIEF: dict[str, object] = {"time_limit_s": 10.0}  # where a part of a trial will do
+SUCCESS = [dmrp.use("dmrp.metric.success")]  # where values do not matter
+CROSSING = Path(__file__).resolve().parents[1] / "end_to_end/worlds/crossing"
 
 
 def small_experiment(**keys: object) -> dmrp.Experiment:
-    """A crowd in the mall, for about a minute of simulated time."""
+    """One and two robots in the smallest world, where they arrive after some ten seconds of simulated time."""
     content: dict[str, object] = {
         "seed": 1,
-        "trials": 3,
-        "scenario": [dmrp.use("mall", robots=2)],
+        "trials": 2,
+        "scenario": [dmrp.use(str(CROSSING), robots=[1, 2], people=4)],
         "global_planner": [dmrp.use("dmrp.planner.cbs", label="CBS")],
         "local_controller": [dmrp.use("dmrp.controller.dwa", params_file="controllers/tuned/dwa.toml")],
         "pedestrian_model": [dmrp.use("dmrp.pedestrian.social_force")],
@@ -39,4 +41,13 @@ def run(tmp_path_factory: pytest.TempPathFactory, progress: list[dict[str, Any]]
 
 @pytest.fixture(scope="session")
 def trace_file(run: dmrp.Run) -> Path:
-    return run.path / "traces" / "trial_000000.mcap"
+    """Of a trial of two robots."""
+    return run.path / "traces" / "trial_000003.mcap"
+
+
+@pytest.fixture(scope="session")
+def crowd_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A trace of several chunks: a thousand people for half a second."""
+    office = dmrp.use("office", people=1000)
+    crowd = small_experiment(scenario=[office], trials=1, simulation={"time_limit_s": 0.5}, metric=SUCCESS)
+    return crowd.run(tmp_path_factory.mktemp("runs") / "crowd", jobs=1).path / "traces" / "trial_000000.mcap"

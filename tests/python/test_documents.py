@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The samples of docs/python.md run as they stand, and the package installs without a network."""
+"""The samples of docs/python.md run, nightly with a run of their own, and the package installs without a network."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import dmrp
 import pytest
 
 import notebook
@@ -18,17 +19,25 @@ import notebook
 TREE = Path(__file__).resolve().parents[2]
 
 
-def test_the_samples_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("matplotlib")
+@pytest.mark.parametrize("is_run_given", [True, pytest.param(False, marks=pytest.mark.nightly)])
+def test_the_samples_of_the_page_run(
+    is_run_given: bool, run: dmrp.Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
     monkeypatch.chdir(tmp_path)
     samples = re.findall(r"^```python\n(.*?)^```", (TREE / "docs/python.md").read_text(), re.M | re.S)
     assert len(samples) == 6
     names: dict[str, object] = {}
+    if is_run_given:
+        given = lambda experiment, out, **options: dmrp.load(shutil.copytree(run.path, out))  # noqa: E731
+        monkeypatch.setattr(dmrp.Experiment, "run", given)
     for sample in samples:
         exec(sample, names)
+    plt.close("all")
     assert {"completion_time.pdf", "trial.sqlite", "obsmat.txt"} <= {file.name for file in tmp_path.iterdir()}
 
 
+@pytest.mark.nightly
 def test_the_package_installs_and_measures_without_the_host(tmp_path: Path, trace_file: Path) -> None:
     pytest.importorskip("setuptools")
     pytest.importorskip("wheel")

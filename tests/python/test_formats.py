@@ -11,7 +11,7 @@ import dmrp
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import BRIEF, small_experiment
+from conftest import SUCCESS, small_experiment
 from dmrp import formats, plans, trace
 
 
@@ -93,7 +93,8 @@ def test_plans_of_tasks_have_a_column(tmp_path: Path) -> None:
 
 def test_plans_of_a_solver_are_driven(tmp_path: Path) -> None:
     """From a run to its tasks, to plans, to a run with the same poses: CBS stands for the solver."""
-    drawn: dict[str, object] = {"scenario": [dmrp.use("mall", robots=2, tasks="drawn")], "trials": 2, "simulation": BRIEF}
+    drawn: dict[str, object] = {"scenario": [dmrp.use("mall", robots=2, tasks="drawn")], "metric": SUCCESS}
+    drawn["simulation"] = {"time_limit_s": 3.0}
     run = small_experiment(**drawn).run(tmp_path / "run", jobs=1)
     solved = {}
     for _, row in run.trials.iterrows():

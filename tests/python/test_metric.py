@@ -9,7 +9,7 @@ import dmrp
 import metrics
 import numpy as np
 import pytest
-from conftest import small_experiment
+from conftest import BRIEF, small_experiment
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> dmrp.Run:
     experiment = small_experiment(
         plugins=[str(Path(metrics.__file__))], scenario=[dmrp.use("mall", robots=4)], trials=2,
         metric=[dmrp.use(name) for name in names],
-        simulation={"time_limit_s": 20.0},
+        simulation=BRIEF,
     )  # fmt: skip
     return experiment.run(tmp_path_factory.mktemp("runs") / "measured", jobs=1)
 
@@ -61,8 +61,8 @@ def test_parameters_offline_are_attributes(measured: dmrp.Run) -> None:
     assert measured.trial(0).trace.measure(metric)["own_sto"]["system"] == 1.0
 
 
-def test_a_cut_trace_is_not_measured(trace_file: Path, tmp_path: Path) -> None:
-    data = trace_file.read_bytes()
+def test_a_cut_trace_is_not_measured(crowd_file: Path, tmp_path: Path) -> None:
+    data = crowd_file.read_bytes()
     (tmp_path / "cut.mcap").write_bytes(data[: len(data) * 2 // 3])
     with pytest.raises(dmrp.TraceError, match="no end"):
         dmrp.trace.read(tmp_path / "cut.mcap").measure(metrics.Sto())

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import dmrp
 import numpy as np
 import pytest
+from conftest import CROSSING
 
 plt = pytest.importorskip("matplotlib.pyplot")
 plt.switch_backend("Agg")
@@ -19,12 +19,11 @@ from dmrp import plot  # noqa: E402
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> dmrp.Run:
     """Two numbers of people by two ways of tracking, by a controller with a swept parameter and one without."""
-    world = Path(__file__).resolve().parents[1] / "end_to_end/worlds/crossing"
     experiment = dmrp.Experiment(
         name="sweep",
         seed=1,
         trials=2,
-        scenario=[dmrp.use(str(world), people=[1, 4])],
+        scenario=[dmrp.use(str(CROSSING), people=[1, 4])],
         global_planner=[dmrp.use("dmrp.planner.cbs", label="CBS")],
         local_controller=[
             dmrp.use("dmrp.controller.pure_pursuit", label="PP", sweep={"lookahead_dist": [0.3, 0.6]}),

@@ -21,7 +21,10 @@ POLICIES = [
 @pytest.mark.parametrize(("package", "file", "policy"), POLICIES)
 def test_a_policy_repeats_to_the_bit(package: str, file: Path, policy: str, tmp_path: Path) -> None:
     pytest.importorskip(package)
-    experiment = small_experiment(plugins=[str(file)], local_controller=[dmrp.use(policy)], trials=2, simulation=BRIEF)
+    mall = [dmrp.use("mall", robots=2)]
+    experiment = small_experiment(
+        plugins=[str(file)], scenario=mall, local_controller=[dmrp.use(policy)], trials=2, simulation=BRIEF
+    )
     run = experiment.run(tmp_path / "run", jobs=1)
     assert run.faults.empty and (run.trial(0).trace.poses()["v_x"] != 0.0).any()
     call_host(["verify", run.path])

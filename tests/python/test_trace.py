@@ -45,25 +45,30 @@ def same(value: int | float, word: str) -> bool:
     return (value != value and expected != expected) or struct.pack("<d", value) == struct.pack("<d", expected)
 
 
-def test_every_number_equals_the_dump(run: dmrp.Run, tmp_path: Path) -> None:
-    scenarios = [dmrp.use("warehouse"), dmrp.use("office")]
-    others = small_experiment(scenario=scenarios, trials=1, simulation=BRIEF).run(tmp_path / "run", jobs=1)
-    for trial in (run.trial(0), others.trial(0), others.trial(1)):
-        read = check_against_dump(trial.trace.path)
-        assert read.is_whole and len(read.plans) >= 1
-        assert len(read.poses()) == read.robots.size
+def check_trace(file: Path) -> trace.Trace:
+    read = check_against_dump(file)
+    assert read.is_whole and len(read.plans) >= 1
+    assert len(read.poses()) == read.robots.size
+    return read
 
 
-def test_every_number_of_a_thousand_people_equals_the_dump(tmp_path: Path) -> None:
-    hospital = dmrp.use("hospital", people=1000)
-    crowd = small_experiment(scenario=[hospital], trials=1, simulation={"time_limit_s": 1.0}).run(tmp_path / "run", jobs=1)
-    read = check_against_dump(crowd.trial(0).trace.path)
+def test_every_number_equals_the_dump(trace_file: Path, crowd_file: Path) -> None:
+    check_trace(trace_file)
+    read = check_trace(crowd_file)
     assert len(read.elements("people")[1]) == 1000 * len(read.t_ns) > 0
 
 
-def test_a_cut_file_gives_what_is_whole(trace_file: Path, tmp_path: Path) -> None:
-    whole = trace.read(trace_file)
-    data = trace_file.read_bytes()
+@pytest.mark.nightly
+def test_every_number_of_shipped_worlds_equals_the_dump(tmp_path: Path) -> None:
+    scenarios = [dmrp.use("mall", robots=2), dmrp.use("warehouse"), dmrp.use("office"), dmrp.use("hospital", people=1000)]
+    run = small_experiment(scenario=scenarios, trials=1, simulation=BRIEF).run(tmp_path / "run", jobs=1)
+    for trial in range(len(scenarios)):
+        check_trace(run.trial(trial).trace.path)
+
+
+def test_a_cut_file_gives_what_is_whole(crowd_file: Path, tmp_path: Path) -> None:
+    whole = trace.read(crowd_file)
+    data = crowd_file.read_bytes()
     cut = tmp_path / "cut.mcap"
     cut.write_bytes(data[: len(data) * 2 // 3])
     read = trace.read(cut)
