@@ -22,4 +22,4 @@ for scenario in */scenario.toml; do
   "$host" draw "$scenario" --planner dmrp.planner.cbs --svg drawn.svg || { echo "FAILED: $scenario" && exit 1; }
   count=$((count + 1))
 done
-((count == 3)) || { echo "FAILED: $count files, there should be 3" && exit 1; }
+((count == 4)) || { echo "FAILED: $count files, there should be 4" && exit 1; }
