@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,6 +17,8 @@
 #include "host/plugins/library.hpp"
 #include "host/plugins/parameter_text.hpp"
 #include "host/plugins/plugin_info.hpp"
+#include "host/plugins/python_file.hpp"
+#include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
 
@@ -27,9 +30,14 @@ using Json = nlohmann::ordered_json;
 using BitNames = std::vector<std::pair<std::uint32_t, const char*>>;
 
 struct PluginsOptions {
-  std::vector<std::string> libraries;  // empty: all libraries of the plugin path
+  std::vector<std::string> names;  // of libraries and plugins; empty: all plugins of the plugin path
+  std::string kind;                // empty: all
   bool json = false;
 };
+
+constexpr std::array kinds{DMRP_KIND_GLOBAL_PLANNER, DMRP_KIND_LOCAL_CONTROLLER, DMRP_KIND_PEDESTRIAN_MODEL,
+                           DMRP_KIND_METRIC};
+constexpr std::array kind_words{"planner", "controller", "pedestrian_model", "metric"};
 
 // The names of the bits that are set; a bit without a name as a number.
 Json bits(std::uint32_t set, const BitNames& names) {
@@ -165,31 +173,100 @@ void print_plugin(const PluginInfo& info) {
   }
 }
 
-int plugins_command(const PluginsOptions& options) {
-  std::vector<fs::path> files;
-  for (const std::string& name : options.libraries) files.push_back(library_to_open(name));
-  if (files.empty()) files = libraries_of_plugin_path();
+struct ListedLibrary {
+  fs::path file;
+  std::vector<PluginInfo> plugins;
+};
 
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const fs::path& file : files) {
-    Probe probe;
-    try {
-      probe = probe_library(file);
-    } catch (const std::runtime_error& error) {
-      throw InputError(file.string() + ": " + error.what());
-    }
-    if (!probe.init_error.empty()) probe.warnings.push_back(probe.init_error);
-    for (const std::string& warning : probe.warnings) warn(file.string() + ": " + warning);
-    if (options.json) {
-      nlohmann::ordered_json plugins = nlohmann::ordered_json::array();
-      for (const PluginInfo& info : probe.plugins) plugins.push_back(plugin_as_json(info));
-      all.push_back({{"library", file.string()}, {"plugins", std::move(plugins)}});
-      continue;
-    }
-    fmt::print("{}\n", file.string());
-    for (const PluginInfo& info : probe.plugins) print_plugin(info);
+ListedLibrary probed(const fs::path& file) {
+  Probe probe;
+  try {
+    probe = probe_library(file);
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + error.what());
   }
-  if (options.json) fmt::print("{}\n", all.dump(2));
+  if (!probe.init_error.empty()) probe.warnings.push_back(probe.init_error);
+  for (const std::string& warning : probe.warnings) warn(file.string() + ": " + warning);
+  return {file, std::move(probe.plugins)};
+}
+
+bool is_library(const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == ".so" || is_python_file(name);
+}
+
+// "dwa" of "dmrp.controller.dwa".
+std::string short_name(const PluginInfo& info) {
+  return info.id.substr(info.id.rfind('.') + 1);
+}
+
+// The plugin of this id, or short name; of several with the same short name, all.
+ListedLibrary named(const std::string& name, const std::vector<ListedLibrary>& libraries) {
+  ListedLibrary found;
+  std::vector<std::string> known;
+  for (const ListedLibrary& library : libraries)
+    for (const PluginInfo& info : library.plugins) {
+      known.push_back(short_name(info));
+      if (info.id != name && short_name(info) != name) continue;
+      found.file = library.file;
+      found.plugins.push_back(info);
+    }
+  if (found.plugins.empty()) throw InputError(fmt::format("no plugin '{}'{}", name, did_you_mean(name, known)));
+  return found;
+}
+
+// Of each kind, a line a plugin.
+void print_short(const std::vector<ListedLibrary>& libraries) {
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    std::vector<const PluginInfo*> of_kind;
+    for (const ListedLibrary& library : libraries)
+      for (const PluginInfo& info : library.plugins)
+        if (info.kind == kinds[i]) of_kind.push_back(&info);
+    if (of_kind.empty()) continue;
+    std::size_t width = 0;
+    for (const PluginInfo* info : of_kind) width = std::max(width, info->id.size());
+    fmt::print("{}s\n", kind_words[i]);
+    for (const PluginInfo* info : of_kind) fmt::print("  {:<{}}  {}\n", info->id, width, info->summary);
+  }
+  fmt::print("\n`dmrp-host plugins NAME` prints one with its parameters and values, as in `dmrp-host plugins {}`.\n",
+             short_name(libraries.front().plugins.front()));
+}
+
+void print_json(const std::vector<ListedLibrary>& libraries) {
+  Json all = Json::array();
+  for (const ListedLibrary& library : libraries) {
+    Json plugins = Json::array();
+    for (const PluginInfo& info : library.plugins) plugins.push_back(plugin_as_json(info));
+    all.push_back({{"library", library.file.string()}, {"plugins", std::move(plugins)}});
+  }
+  fmt::print("{}\n", all.dump(2));
+}
+
+int plugins_command(const PluginsOptions& options) {
+  std::vector<ListedLibrary> listed;
+  std::vector<ListedLibrary> of_path;  // where names of plugins are looked up
+  if (options.names.empty() || !std::all_of(options.names.begin(), options.names.end(), is_library))
+    for (const fs::path& file : libraries_of_plugin_path()) of_path.push_back(probed(file));
+  for (const std::string& name : options.names)
+    listed.push_back(is_library(name) ? probed(library_to_open(name)) : named(name, of_path));
+  if (options.names.empty()) listed = of_path;
+  if (!options.kind.empty()) {
+    const auto index = std::find(kind_words.begin(), kind_words.end(), options.kind) - kind_words.begin();
+    for (ListedLibrary& library : listed)
+      std::erase_if(library.plugins, [&](const PluginInfo& info) { return info.kind != kinds[index]; });
+    std::erase_if(listed, [](const ListedLibrary& library) { return library.plugins.empty(); });
+    if (listed.empty() && !options.names.empty())
+      throw InputError(fmt::format("--kind: {} is no {}", fmt::join(options.names, ", "), options.kind));
+  }
+  if (options.json) {
+    print_json(listed);
+  } else if (options.names.empty()) {
+    if (!listed.empty()) print_short(listed);
+  } else {
+    for (const ListedLibrary& library : listed) {
+      fmt::print("{}\n", library.file.string());
+      for (const PluginInfo& info : library.plugins) print_plugin(info);
+    }
+  }
   return exit_status::done;
 }
 
@@ -197,11 +274,14 @@ int plugins_command(const PluginsOptions& options) {
 
 void add_plugins(CLI::App& app) {
   const auto options = std::make_shared<PluginsOptions>();
-  CLI::App* command = app.add_subcommand("plugins", "list the plugins of libraries, with their parameters");
-  command->add_option("libraries", options->libraries, "libraries (default: all libraries of the plugin path)")
-      ->type_name("LIB.so");
+  CLI::App* command = app.add_subcommand("plugins", "list plugins, or print one with its parameters");
+  command->add_option("names", options->names, "plugins, as in dwa, or libraries: with their parameters")
+      ->type_name("NAME|LIB.so");
+  command->add_option("--kind", options->kind, "only plugins of this kind")
+      ->check(CLI::IsMember(std::vector<std::string>(kind_words.begin(), kind_words.end())))
+      ->type_name("KIND");
   command->add_flag("--json", options->json, "print JSON");
-  finish_command(command, "dmrp-host plugins libdmrp_planners.so", [options] { return plugins_command(*options); });
+  finish_command(command, "dmrp-host plugins dwa", [options] { return plugins_command(*options); });
 }
 
 }  // namespace dmrp::host

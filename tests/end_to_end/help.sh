@@ -21,6 +21,20 @@ done
 expect_status 2 "$host" help plam
 grep -q "there is no command 'plam' (did you mean 'plan'?)" stderr || fail "help should name the nearest: $(cat stderr)"
 
+# plugins: a line each, one with its parameters by its short name, the nearest name
+expect_status 0 "$host" plugins
+cp stdout list
+expect_status 0 "$host" plugins --json
+[[ $(grep -c '^  dmrp\.' list) == "$(grep -c '"id": ' stdout)" ]] || fail "not each plugin has its line: $(cat list)"
+expect_status 0 "$host" plugins dwa
+[[ $(grep -c '^  dmrp\.' stdout) == 1 ]] && grep -q '^      sim_time .*how far ahead' stdout || fail "dwa: $(cat stdout)"
+expect_status 0 "$host" plugins --kind planner
+! grep '^  dmrp' stdout | grep -v planner || fail "--kind planner lists others: $(cat stdout)"
+expect_status 2 "$host" plugins dwaa
+grep -q "^no plugin 'dwaa' (did you mean 'dwa'?)" stderr || fail "the nearest name is missing: $(cat stderr)"
+expect_status 2 "$host" plugins teb --kind planner
+grep -q "^--kind: teb is no planner" stderr || fail "teb is listed as a planner: $(cat stdout stderr)"
+
 words=()
 # example COMMAND: sets its words, without the program's name
 example() {
