@@ -19,7 +19,7 @@ done
 
 expect_status 0 "$host" keys experiment
 while IFS='|' read -r key range; do
-  grep -qF "  $key  # $range" "$scratch/stdout" || fail "keys experiment should say of $key: $range"
+  grep -F "  $key " "$scratch/stdout" | grep -qF " ($range)" || fail "keys experiment should say of $key: $range"
 done <<'RANGES'
 step_s = 0.02|0.001 to 1000000
 tracking = "visible"|"none", "visible", "all"
@@ -34,6 +34,10 @@ for key in start via group_size vertices_m scen; do
   grep -qE "^  $key( |$)" "$scratch/stdout" || fail "keys scenario lacks $key"
 done
 expect_status 2 "$host" keys experimant
+for format in experiment scenario; do
+  expect_status 0 "$host" keys "$format"
+  ! grep '^  ' stdout | grep -v '# [^( ]' || fail "these keys have no meaning (host/layouts/keys.json)"
+done
 
 # --- what lies beyond a range is refused at its key ---
 # beyond RANGE: values that the range leaves out, a line each; none for a range that is more than one
@@ -91,6 +95,6 @@ for format in experiment scenario; do
     done < <(beyond "$range")
   done < <("$host" keys "$format" | awk '
     /^\[/ { table = $1; next }
-    index($0, "  # ") { range = $0; sub(/.*  # /, "", range); print table "|" $1 "|" range }')
+    match($0, / \(.*\)$/) { print table "|" $1 "|" substr($0, RSTART + 2, RLENGTH - 3) }')
 done
 ((tried > 100)) || fail "only $tried values beyond ranges were tried"
