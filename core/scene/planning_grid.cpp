@@ -5,6 +5,7 @@
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 
+#include "core/scene/narrow_ways.hpp"
 #include "core/scene/touching.hpp"
 
 namespace dmrp::core {
@@ -88,8 +89,10 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
   return grid;
 }
 
-PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m) {
-  return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m, double resolution_m) {
+  PlanningGrid grid = build_planning_grid(geometry, resolution_m, radius_m, 0.0);
+  open_narrow_ways(geometry, radius_m, grid);
+  return grid;
 }
 
 std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from, const std::vector<bool>& closed) {
