@@ -43,7 +43,8 @@ FreeRegions::FreeRegions(const StaticGeometry& geometry, const RobotTypes& types
   for (const RobotSettings& type : types.all())
     if (drawn.types.empty() || std::count(drawn.types.begin(), drawn.types.end(), type.type) > 0)
       needed_m = std::max(needed_m, planning_clearance_m(type, settings));
-  find_regions(part_for_tasks(fine_, drawn.inside), needed_m + 0.5 * settings.grid_resolution_m);
+  find_regions(part_for_tasks(fine_, drawn.inside), needed_m + 0.5 * settings.grid_resolution_m,
+               0.25 * settings.grid_resolution_m * settings.grid_resolution_m);
   spread(static_cast<std::size_t>(0.5 * settings.grid_resolution_m / fine.grid_resolution_m));
   const std::vector<bool> now = reached(PlanningGrids(geometry, types, settings).common(drawn.types));
   hall_ = adjoin_.size();
@@ -52,8 +53,8 @@ FreeRegions::FreeRegions(const StaticGeometry& geometry, const RobotTypes& types
   counted_ = adjoin_.size() - (hall_ < adjoin_.size() ? 1 : 0);
 }
 
-// The connected pieces of the part's cells that have such clearance.
-void FreeRegions::find_regions(const std::vector<std::uint32_t>& part, double open_m) {
+// The connected pieces of the part's cells that have such clearance; smaller ones are niches, as before an open door.
+void FreeRegions::find_regions(const std::vector<std::uint32_t>& part, double open_m, double niche_m2) {
   std::vector<bool> closed(fine_.free.size(), true);
   for (const std::uint32_t cell : part) closed[cell] = static_cast<double>(fine_.clearance[cell]) < open_m;
   region_.assign(closed.size(), nowhere);
@@ -62,19 +63,25 @@ void FreeRegions::find_regions(const std::vector<std::uint32_t>& part, double op
   const toolkit::GridView view(c_grid);
   for (const std::uint32_t first : part) {
     if (closed[first] || region_[first] != nowhere) continue;
-    std::vector<std::uint32_t> open = {first};
+    std::vector<std::uint32_t> found = {first};
     region_[first] = regions;
-    while (!open.empty()) {
-      const std::uint32_t cell = open.back();
-      open.pop_back();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const std::uint32_t cell = found[i];
       for (int direction = 0; direction < toolkit::direction_count; direction += 2)
         if (view.edge(cell, direction))
           if (const std::uint32_t next = view.neighbour(cell, direction); !closed[next] && region_[next] == nowhere) {
             region_[next] = regions;
-            open.push_back(next);
+            found.push_back(next);
           }
     }
-    ++regions;
+    if (static_cast<double>(found.size()) * fine_.resolution_m * fine_.resolution_m >= niche_m2) {
+      ++regions;
+      continue;
+    }
+    for (const std::uint32_t cell : found) {
+      region_[cell] = nowhere;
+      closed[cell] = true;
+    }
   }
   adjoin_.assign(regions, std::vector<bool>(regions));
 }

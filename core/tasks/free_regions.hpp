@@ -39,7 +39,7 @@ class FreeRegions {
 
  private:
   std::vector<bool> reached(const PlanningGrid& grid) const;
-  void find_regions(const std::vector<std::uint32_t>& part, double open_m);
+  void find_regions(const std::vector<std::uint32_t>& part, double open_m, double niche_m2);
   void spread(std::size_t near_steps);
   bool is_hall(std::size_t region) const;
 
