@@ -5,7 +5,6 @@
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 
-#include "core/scene/narrow_ways.hpp"
 #include "core/scene/touching.hpp"
 
 namespace dmrp::core {
@@ -86,12 +85,6 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
     if (geometry.has_open_edge()) grid.at_open_edge[index] = geometry.is_open_edge(nearest.shape) ? 1 : 0;
   }
   find_edges(geometry, radius_m, grid);
-  return grid;
-}
-
-PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m, double resolution_m) {
-  PlanningGrid grid = build_planning_grid(geometry, resolution_m, radius_m, 0.0);
-  open_narrow_ways(geometry, radius_m, grid);
   return grid;
 }
 

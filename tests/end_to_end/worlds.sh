@@ -92,7 +92,7 @@ size_m = [0.1, 2.55]
 EOT
 crossing_with ./rooms.toml 'robots = 2' 'tasks = "drawn"' '[[global_planner]]' 'use = "dmrp.planner.pibt"' \
   >"$scratch/rooms_e.toml"
-missed='rooms.toml:5:10: 1 of 2 regions cannot be reached with cells of 1 m; grid_resolution_m = 0.2 reaches all'
+missed='rooms.toml:5:10: 1 of 2 regions cannot be reached with cells of 1 m; grid_resolution_m = 0.4 reaches all'
 expect_status 0 "$host" validate "$scratch/rooms_e.toml"
 grep -q "$missed, but dmrp.planner.pibt cannot plan with it" "$scratch/stderr" || fail "validate: a room is cut off"
 expect_status 0 "$host" draw "$scratch/rooms.toml" --agents 2 --svg "$scratch/rooms.svg"
@@ -101,9 +101,9 @@ expect_status 0 "$host" "$scratch/rooms_e.toml" --trials 1 --out "$scratch/rooms
 grep -q "$missed" "$scratch/stderr" || fail "run: a room is cut off"
 crossing_with ./rooms.toml 'robots = 2' 'tasks = "drawn"' '[simulation]' 'grid_resolution_m = "auto"' >"$scratch/auto.toml"
 expect_status 0 "$host" "$scratch/auto.toml" --trials 1 --out "$scratch/auto"
-grep -q 'grid_resolution_m = "auto" takes 0.2 m' "$scratch/stdout" || fail "run: which cells \"auto\" took"
-grep -q 'regions cannot be reached' "$scratch/stderr" && fail "run: nothing is cut off with cells of 0.2 m"
-grep -q '^grid_resolution_m *= 0.2' "$scratch/auto/effective.toml" || fail "effective.toml has no size of cells"
+grep -q 'grid_resolution_m = "auto" takes 0.4 m' "$scratch/stdout" || fail "run: which cells \"auto\" took"
+grep -q 'regions cannot be reached' "$scratch/stderr" && fail "run: nothing is cut off with cells of 0.4 m"
+grep -q '^grid_resolution_m *= 0.4' "$scratch/auto/effective.toml" || fail "effective.toml has no size of cells"
 
 # a gap of 0.6 m lets people of 0.4 m through wherever the grid lies, and one of 0.38 m nobody
 for i in $(seq 0 19); do

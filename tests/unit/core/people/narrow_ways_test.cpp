@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene/narrow_ways.hpp"
+#include "core/people/narrow_ways.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene/narrow_ways.hpp"
+#include "core/people/narrow_ways.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <dmrp/toolkit/vec2.hpp>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -95,6 +96,7 @@ class NarrowWays {
       for (std::size_t q = 0; q < quarters; ++q) open_side(cell, q);
     for (const auto& [cell, q] : shut_) open_side(cell, q);
     thin();
+    keep_joining();
     for (const std::uint32_t cell : between_) grid_.free[cell] = edges_[cell] != 0;
     grid_.edges = edges_;
   }
@@ -143,6 +145,55 @@ class NarrowWays {
       for (std::size_t b = a + 1; b < quarters; ++b)
         if (edge(cell, a) && edge(cell, b) && !around.joined(a, b)) return true;
     return false;
+  }
+
+  // Closes what leads only to where there was a way before, so that grids change where they joined nothing, and only there.
+  void keep_joining() {
+    const std::vector<std::uint32_t> before = parts_of(grid_.edges);
+    std::vector<bool> known(view_.size());
+    for (const std::uint32_t first : between_) {
+      if (known[first] || edges_[first] == 0) continue;
+      std::vector<std::uint32_t> group = {first};
+      std::set<std::uint32_t> joined;
+      known[first] = true;
+      for (std::size_t i = 0; i < group.size(); ++i)
+        for (std::size_t q = 0; q < quarters; ++q) {
+          if (!edge(group[i], q)) continue;
+          const std::uint32_t other = view_.neighbour(group[i], direction_of(q));
+          if (view_.free(other)) joined.insert(before[other]);
+          if (view_.free(other) || known[other]) continue;
+          known[other] = true;
+          group.push_back(other);
+        }
+      if (joined.size() > 1) continue;
+      for (const std::uint32_t cell : group)
+        for (std::size_t q = 0; q < quarters; ++q)
+          if (edge(cell, q)) set_edge(cell, q, false);
+    }
+    for (const auto& [cell, q] : shut_)
+      if (before[cell] == before[view_.neighbour(cell, direction_of(q))]) set_edge(cell, q, false);
+  }
+
+  // By cell: which part of the grid it lies in.
+  std::vector<std::uint32_t> parts_of(const std::vector<std::uint8_t>& edges) const {
+    const std::uint32_t cells = view_.size();
+    std::vector<std::uint32_t> label(cells, no_cell);
+    for (std::uint32_t first = 0; first < cells; ++first) {
+      if (label[first] != no_cell) continue;
+      std::vector<std::uint32_t> open = {first};
+      label[first] = first;
+      while (!open.empty()) {
+        const std::uint32_t cell = open.back();
+        open.pop_back();
+        for (std::size_t q = 0; q < quarters; ++q) {
+          if ((edges[cell] >> direction_of(q) & 1) == 0) continue;
+          const std::uint32_t next = view_.neighbour(cell, direction_of(q));
+          if (label[next] == no_cell) open.push_back(next);
+          label[next] = first;
+        }
+      }
+    }
+    return label;
   }
 
   // Whether there is no other way to the neighbour over the cells beside both.
@@ -270,6 +321,12 @@ class NarrowWays {
 
 void open_narrow_ways(const StaticGeometry& geometry, double radius_m, PlanningGrid& grid) {
   if (2.0 * radius_m >= grid.resolution_m) NarrowWays(geometry, radius_m, grid).open();
+}
+
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m, double resolution_m) {
+  PlanningGrid grid = build_planning_grid(geometry, resolution_m, radius_m, 0.0);
+  open_narrow_ways(geometry, radius_m, grid);
+  return grid;
 }
 
 }  // namespace dmrp::core
