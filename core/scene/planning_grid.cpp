@@ -88,10 +88,6 @@ PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resoluti
   return grid;
 }
 
-PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m) {
-  return build_planning_grid(geometry, walking_resolution_m, radius_m, 0.0);
-}
-
 std::vector<bool> reachable_cells(const PlanningGrid& grid, std::uint32_t from, const std::vector<bool>& closed) {
   assert(from < grid.free.size() && (closed.empty() || closed.size() == grid.free.size()));
   const dmrp_grid c_grid = grid.view();

@@ -30,9 +30,11 @@ struct PlanningGrid {
 // sampling, every 0.05 m say, could miss a corner.
 PlanningGrid build_planning_grid(const StaticGeometry& geometry, double resolution_m, double radius_m, double margin_m);
 
-// The grid for the navigation of people of this radius.
+// The grid for the navigation of people of this radius, with the ways that lead beside the centres of its cells
+// (narrow_ways.hpp).
 inline constexpr double walking_resolution_m = 0.25;
-PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m);
+PlanningGrid build_walking_grid(const StaticGeometry& geometry, double radius_m,
+                                double resolution_m = walking_resolution_m);
 
 // Marks the cells that are reachable from a cell over orthogonal edges: the moves that every planner can use. Cells that
 // are marked in `closed` are not entered; empty: none is closed.

@@ -24,7 +24,7 @@ std::string plural(std::uint64_t n, const std::string& noun) {
 }
 
 std::string map_lines(const Experiment& experiment) {
-  std::string lines;
+  std::string lines = experiment.chosen_cells.empty() ? "" : experiment.chosen_cells + "\n";
   std::set<std::string> seen;
   for (const ScenarioVariant& variant : experiment.scenarios)
     if (variant.census && seen.insert(variant.file.string()).second)

@@ -14,7 +14,8 @@ struct Experiment;
 // "1 trial", "2 trials"
 std::string plural(std::uint64_t n, const std::string& noun);
 
-// A line for each map in use: "flat.yaml: 800 cells: 77 % free, 21 % walls, 2 % unknown (count as walls)".
+// A line for each map in use: "flat.yaml: 800 cells: 77 % free, 21 % walls, 2 % unknown (count as walls)". Before them
+// one for cells that the experiment leaves to choose.
 std::string map_lines(const Experiment& experiment);
 
 // On standard error, as "warning: TEXT".

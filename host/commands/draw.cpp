@@ -18,6 +18,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/experiment/adhoc_use.hpp"
 #include "host/guests/probe.hpp"
+#include "host/plan/check_planners.hpp"
 #include "host/plan/plan_task.hpp"
 #include "host/plan/planner_process.hpp"
 #include "host/process/fault_kind.hpp"
@@ -186,6 +187,7 @@ int draw_command(const DrawOptions& options) {
   if (!options.planner.empty())
     add_planner(experiment, options.planner, options.plugins, options.settings, &probe_library);
   for (const std::string& warning : experiment.warnings) warn(warning);
+  for (const std::string& warning : cut_off_warnings(experiment)) warn(warning);
   fmt::print(stderr, "{}", map_lines(experiment));
   const core::Scenario& scenario = experiment.scenarios[0].scenario;
   if (is_planned && !scenario.robots.empty()) print_difficulty(experiment);

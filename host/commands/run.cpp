@@ -229,6 +229,8 @@ int run_command(const RunOptions& options) {
   if (!is_silent)
     for (const std::string& warning : experiment.warnings) warn(warning);
   if (!is_silent)
+    for (const std::string& warning : cut_off_warnings(experiment)) warn(warning);
+  if (!is_silent)
     for (const std::string& warning : without_plan) warn(warning);
   if (const std::string gaps = box::gaps(); !is_silent && !gaps.empty()) warn(gaps);
   if (!is_silent)

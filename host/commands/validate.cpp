@@ -48,6 +48,7 @@ int validate_command(const std::filesystem::path& file) {
   check_planners(experiment, file);
   const std::vector<std::string> without_plan = check_plan_files(experiment);
   for (const std::string& warning : experiment.warnings) warn(warning);
+  for (const std::string& warning : cut_off_warnings(experiment)) warn(warning);
   for (const std::string& warning : without_plan) warn(warning);
   const std::size_t count = combinations(experiment).size();
   fmt::print("{}: good. {} of {}: {} trials, {} metrics\n", file.string(), plural(count, "combination"),

@@ -13,6 +13,7 @@
 #include "core/scene/planning_grids.hpp"
 #include "core/scene/static_geometry.hpp"
 #include "host/errors/input_error.hpp"
+#include "host/experiment/check_regions.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/read_parameters.hpp"
 #include "host/plugins/offered_extensions.hpp"
@@ -105,6 +106,8 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   variant.census = read.census;
   experiment.warnings = read.warnings;
   if (to_plan) check_world(read, variant.types, experiment);
+  const RandomRobots any = {1};
+  check_regions({{&read, &variant.types, &any}}, experiment);
   return experiment;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/polygon.hpp>
@@ -22,6 +21,7 @@
 #include "host/errors/input_error.hpp"
 #include "host/errors/mistakes.hpp"
 #include "host/experiment/check_people.hpp"
+#include "host/experiment/check_regions.hpp"
 
 namespace dmrp::host {
 
@@ -29,8 +29,6 @@ namespace {
 
 constexpr double start_distance_m = 2.0;  // between starts and between goals, by the method
 constexpr double max_cells = 1 << 24;
-constexpr double most_cells_tried = 1e6;  // of a grid that a message proposes
-constexpr std::array proposed_cells_m = {0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1};
 
 void check_size(const ScenarioFile& file, double resolution_m, const char* grid) {
   const core::Scenario& scenario = file.scenario;

@@ -60,8 +60,11 @@ struct Experiment {
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
-  double smallest_effect = 0.05;      // that is of interest, in the first criterion of the answer: changes no result
-  std::vector<std::string> warnings;  // one line each
+  double smallest_effect = 0.05;       // that is of interest, in the first criterion of the answer: changes no result
+  std::vector<std::string> warnings;   // one line each
+  std::vector<std::string> cut_off{};  // a line for each scenario with regions that its planning cells cut off
+  double advised_cells_m = 0.0;        // with which none is; 0: no such cells are known
+  std::string chosen_cells{};          // grid_resolution_m = "auto" became, in a line
 };
 
 inline const core::SimulationSettings& simulation_of(const Experiment& experiment, const ScenarioVariant& variant) {

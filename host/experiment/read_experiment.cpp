@@ -10,6 +10,7 @@
 #include "core/scene/settings.hpp"
 #include "host/errors/input_error.hpp"
 #include "host/errors/mistakes.hpp"
+#include "host/experiment/check_regions.hpp"
 #include "host/experiment/check_worlds.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/experiment_keys.hpp"
@@ -102,6 +103,8 @@ std::vector<SettingsPoint> multiply(const std::vector<SettingsPoint>& points, Se
       for (const Setting& setting : settings_of(next, sweep.table)) {
         if (setting.key != sweep.key) continue;
         setting.read(value);
+        if (next.simulation.grid_resolution_m == cells_to_choose_m)
+          value.fail("'grid_resolution_m' = \"auto\" cannot be swept");
         sweep.values.push_back(setting.write());
       }
       const std::string& text = sweep.values.back();
@@ -325,9 +328,29 @@ void keep_first_of_equals(std::vector<std::string>& lines) {
   lines = std::move(kept);
 }
 
+std::vector<WorldUse> worlds_of(const std::vector<ScenarioUse>& uses) {
+  std::vector<WorldUse> worlds;
+  for (const ScenarioUse& use : uses) worlds.push_back({&use.file, &use.robot_types, &use.random});
+  return worlds;
+}
+
+// grid_resolution_m = "auto" takes the largest cells that suit all scenarios, or else 1 m.
+void choose_cells(const TomlTable& root, std::vector<ScenarioUse>& uses, Experiment& experiment) {
+  core::SimulationSettings& simulation = experiment.simulation;
+  if (simulation.grid_resolution_m != cells_to_choose_m) return;
+  simulation.grid_resolution_m = core::SimulationSettings().grid_resolution_m;
+  resolve_types(uses, experiment);
+  const double found_m = cells_for_all(worlds_of(uses), simulation);
+  if (found_m > 0.0) simulation.grid_resolution_m = found_m;
+  experiment.chosen_cells = fmt::format(
+      "{}: grid_resolution_m = \"auto\" takes {} m{}", root.find_table("simulation")->need("grid_resolution_m").place(),
+      simulation.grid_resolution_m, found_m > 0.0 ? "" : ": no cells suit all scenarios");
+}
+
 // Checks the scenarios with the experiment's settings, and with each combination of swept ones: then each variant
 // becomes one for each combination. `has_scenarios`: all could be read.
 void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool has_scenarios, Experiment& experiment) {
+  choose_cells(root, uses, experiment);
   const core::SimulationSettings simulation = experiment.simulation;
   const core::RobotSettings robot = experiment.robot;
   const std::vector<SettingsPoint> points = read_settings_sweep(root, experiment);
@@ -344,8 +367,10 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
     });
     if (!has_types) continue;
     if (has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
+    bool are_good = true;
     for (const ScenarioUse& use : uses)
-      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+      are_good &= mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+    if (are_good) check_regions(worlds_of(uses), experiment);
     for (std::size_t i = 0; i < variants; ++i) {
       ScenarioVariant& variant = all[i * points.size() + p] = experiment.scenarios[i];
       if (!experiment.sweeps.empty()) variant.simulation = points[p].simulation;
@@ -358,6 +383,7 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
   experiment.robot = robot;
   experiment.robot_types = read_robot_types(root, robot);
   keep_first_of_equals(experiment.warnings);
+  keep_first_of_equals(experiment.cut_off);
 }
 
 }  // namespace

@@ -60,6 +60,19 @@ Setting plugin_id(const std::string& key, std::string& to) {
           "the id of a plugin"};
 }
 
+// "auto": to_choose, until load_experiment() has chosen.
+Setting cell_size(const std::string& key, double& to) {
+  Setting setting = number(key, to, 0.05, 100.0);
+  const auto read_number = setting.read;
+  setting.read = [&to, read_number](const TomlValue& value) {
+    if (!value.is_text()) return read_number(value);
+    if (value.text() != "auto") value.fail(fmt::format("'{}' must be a number or \"auto\"", value.key()));
+    to = cells_to_choose_m;
+  };
+  setting.range += ", or \"auto\"";
+  return setting;
+}
+
 }  // namespace
 
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation) {
@@ -72,7 +85,7 @@ Settings simulation_settings(core::SimulationSettings& to) {
   return {seconds("step_s", to.step_ns),
           seconds("control_period_s", to.control_period_ns),
           seconds("time_limit_s", to.time_limit_ns),
-          number("grid_resolution_m", to.grid_resolution_m, 0.05, 100.0),
+          cell_size("grid_resolution_m", to.grid_resolution_m),
           seconds("step_duration_s", to.step_duration_ns),
           latency("control_latency_s", to.control_latency_ns),
           latency("planning_latency_s", to.planning_latency_ns),
@@ -213,7 +226,7 @@ constexpr std::array implausible_robot = {
 
 void warn_of_implausible(const TomlTable& table, std::span<const Implausible> limits, Experiment& experiment) {
   for (const Implausible& limit : limits)
-    if (const auto value = table.find(limit.key); value && value->number() > limit.above)
+    if (const auto value = table.find(limit.key); value && !value->is_text() && value->number() > limit.above)
       experiment.warnings.push_back(
           fmt::format("{}: '{}' is {} {}: {}", value->place(), limit.key, value->number(), limit.unit, limit.hint));
 }

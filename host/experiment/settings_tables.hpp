@@ -22,6 +22,9 @@ Settings simulation_settings(core::SimulationSettings& to);
 Settings recovery_settings(core::RecoverySettings& to);
 Settings navigation_settings(core::NavigationSettings& to);
 
+// The grid_resolution_m of "auto" while it is read.
+inline constexpr double cells_to_choose_m = 0.0;
+
 // Refuses settings that do not fit together, at their keys in `table`. Throws InputError.
 void check_simulation(const TomlTable& table, const core::SimulationSettings& simulation);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,27 @@ void check_planners(const Experiment& experiment, const std::filesystem::path& s
           use->fail(fmt::format("{} cannot plan for scenario '{}': {}", planner.info.id, variant.label, refusal));
     }
   }
+}
+
+std::vector<std::string> cut_off_warnings(const Experiment& experiment) {
+  const double cells_m = experiment.advised_cells_m;
+  std::vector<std::string> warnings = experiment.cut_off;
+  std::string advice = "; none of the usual smaller cells reach all";
+  if (cells_m > 0.0 && !warnings.empty()) {
+    Experiment finer = experiment;
+    finer.simulation.grid_resolution_m = cells_m;
+    std::set<std::string> refusing;
+    for (ScenarioVariant& variant : finer.scenarios) {
+      variant.simulation.reset();
+      if (!has_unequal_robots(finer, variant)) continue;
+      for (const PluginUse& planner : finer.global_planners)
+        if (!planner.plans.is_given() && !refusal_of(finer, variant, planner).empty()) refusing.insert(planner.info.id);
+    }
+    advice = fmt::format("; grid_resolution_m = {} reaches all", cells_m);
+    if (!refusing.empty()) advice += fmt::format(", but {} cannot plan with it", fmt::join(refusing, ", "));
+  }
+  for (std::string& warning : warnings) warning += advice;
+  return warnings;
 }
 
 }  // namespace dmrp::host

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "host/experiment/experiment.hpp"
 
@@ -13,5 +15,9 @@ namespace dmrp::host {
 // search refuses, and its line is an InputError at its place in the file. `shown_file`: the experiment file in messages.
 // Other experiments start no planner.
 void check_planners(const Experiment& experiment, const std::filesystem::path& shown_file);
+
+// The lines of experiment.cut_off, each with one advice for all scenarios, robots and planners: the cells that reach
+// everything, and the planners that refuse them. Without such lines it starts no planner.
+std::vector<std::string> cut_off_warnings(const Experiment& experiment);
 
 }  // namespace dmrp::host

@@ -141,6 +141,9 @@ std::string TomlValue::type_name() const {
 bool TomlValue::is_integer() const {
   return node_->is_integer();
 }
+bool TomlValue::is_text() const {
+  return node_->is_string();
+}
 bool TomlValue::is_array() const {
   return node_->is_array();
 }

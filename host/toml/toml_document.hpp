@@ -101,6 +101,7 @@ class TomlValue {
   TomlTable table(const std::string& title = "") const;  // `title`: its name in messages; "": its key
 
   bool is_integer() const;
+  bool is_text() const;
   bool is_array() const;
   bool is_table() const;
   std::optional<double> formula() const;  // the value of a formula; none if it is none

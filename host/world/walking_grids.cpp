@@ -69,7 +69,7 @@ WalkingGrids::Grid* WalkingGrids::grid(double resolution_m, double radius_m) {
   const dmrp_vec2 size = {geometry_->upper().x - geometry_->lower().x, geometry_->upper().y - geometry_->lower().y};
   if (!(size.x / resolution_m * (size.y / resolution_m) <= most_cells)) return nullptr;
   auto made = std::make_unique<Grid>();
-  made->grid = core::build_planning_grid(*geometry_, resolution_m, radius_m, 0.0);
+  made->grid = core::build_walking_grid(*geometry_, radius_m, resolution_m);
   if (made->grid.width == 0 || made->grid.height == 0) return nullptr;  // cells that are larger than any world
   made->view = made->grid.view();
   known = std::move(made);

@@ -72,3 +72,58 @@ expect_status 0 "$host" "$source_dir/examples/recorded_crowd.toml" --quiet --out
 [[ $(query "$scratch/recorded" "SELECT count(*) FROM trial WHERE pedestrian_model = '' AND outcome <> 'fault'") == 2 ]] ||
   fail "two trials of recorded people"
 grep -q 'recorded_crowd/crowd.csv' "$scratch/recorded/manifest.json" || fail "the manifest has no recording"
+
+# two rooms with a door that cells of 1 m miss: validate, draw and run say so; "auto" takes cells that do not
+cat >"$scratch/rooms.toml" <<'EOT'
+[scenario]
+name = "rooms"
+title = "Two rooms"
+description = "Two rooms with a door"
+size_m = [12, 6]
+time_limit_s = 60
+[[box]]
+name = "south"
+center_m = [5, 1.275]
+size_m = [0.1, 2.55]
+[[box]]
+name = "north"
+center_m = [5, 4.725]
+size_m = [0.1, 2.55]
+EOT
+crossing_with ./rooms.toml 'robots = 2' 'tasks = "drawn"' '[[global_planner]]' 'use = "dmrp.planner.pibt"' \
+  >"$scratch/rooms_e.toml"
+missed='rooms.toml:5:10: 1 of 2 regions cannot be reached with cells of 1 m; grid_resolution_m = 0.4 reaches all'
+expect_status 0 "$host" validate "$scratch/rooms_e.toml"
+grep -q "$missed, but dmrp.planner.pibt cannot plan with it" "$scratch/stderr" || fail "validate: a room is cut off"
+expect_status 0 "$host" draw "$scratch/rooms.toml" --agents 2 --svg "$scratch/rooms.svg"
+grep -q "$missed" "$scratch/stderr" || fail "draw: a room is cut off"
+expect_status 0 "$host" "$scratch/rooms_e.toml" --trials 1 --out "$scratch/rooms"
+grep -q "$missed" "$scratch/stderr" || fail "run: a room is cut off"
+crossing_with ./rooms.toml 'robots = 2' 'tasks = "drawn"' '[simulation]' 'grid_resolution_m = "auto"' >"$scratch/auto.toml"
+expect_status 0 "$host" "$scratch/auto.toml" --trials 1 --out "$scratch/auto"
+grep -q 'grid_resolution_m = "auto" takes 0.4 m' "$scratch/stdout" || fail "run: which cells \"auto\" took"
+grep -q 'regions cannot be reached' "$scratch/stderr" && fail "run: nothing is cut off with cells of 0.4 m"
+grep -q '^grid_resolution_m *= 0.4' "$scratch/auto/effective.toml" || fail "effective.toml has no size of cells"
+
+# a gap of 0.6 m lets people of 0.4 m through wherever the grid lies, and one of 0.38 m nobody
+for i in $(seq 0 19); do
+  for gap in 0.6 0.38; do
+    {
+      sed -e '/^\[\[box/,$d' "$scratch/rooms.toml"
+      awk -v y="$(awk "BEGIN { print 2.75 + 0.0125 * $i }")" -v gap=$gap 'BEGIN {
+        printf "[[box]]\nname = \"s\"\ncenter_m = [5, %.6f]\nsize_m = [0.1, %.6f]\n", (y - gap / 2) / 2, y - gap / 2
+        printf "[[box]]\nname = \"n\"\ncenter_m = [5, %.6f]\nsize_m = [0.1, %.6f]\n", (6 + y + gap / 2) / 2, 6 - y - gap / 2
+        print "[[region]]\nname = \"a\"\nlower_m = [0.5, 0.5]\nupper_m = [2.5, 5.5]"
+        print "[[region]]\nname = \"b\"\nlower_m = [9, 0.5]\nupper_m = [11, 5.5]"
+        print "[[flow]]\nname = \"f\"\nfrom = \"a\"\nto = \"b\"\npeople = 3"
+      }'
+    } >"$scratch/gap.toml"
+    crossing_with ./gap.toml 'robots = 0' >"$scratch/gap_e.toml"
+    if [[ $gap == 0.6 ]]; then
+      expect_status 0 "$host" validate "$scratch/gap_e.toml"
+    else
+      expect_status 2 "$host" validate "$scratch/gap_e.toml"
+      grep -q "nobody can walk from 'a' to 'b'" "$scratch/stderr" || fail "gap of 0.38 m at offset $i"
+    fi
+  done
+done

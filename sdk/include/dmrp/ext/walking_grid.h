@@ -25,7 +25,8 @@ struct dmrp_walking_grid {
   uint32_t reserved;
   void* context;  // the host's own
 
-  // The grid of the world, whose `free` and `edges` hold for a disc of this radius. Equal requests get the same grid at
+  // The grid of the world, whose `free` and `edges` hold for a disc of this radius. Where a gap is wide enough for it,
+  // but no cell's centre lies in its middle, cells that the disc can pass beside their centre are free, too. Equal requests get the same grid at
   // no cost. NULL for a resolution or radius out of range, for one that gives more than 100 million cells, and for a
   // request with a reserved field that is not 0. Valid until the next start() or destroy() begins.
   // [step]

@@ -314,7 +314,7 @@ TEST_CASE("on a map whose edge is open, robots are drawn in the building, not ou
   CHECK_THAT(
       message_of(experiment + "[simulation]\ngrid_resolution_m = 2.0\n"),
       Catch::EndsWith("scenario.toml:7:1: robots are drawn in what the listed starts reach, but none of these lies "
-                      "on a free planning cell; grid_resolution_m = 0.75 would do"));
+                      "on a free planning cell; grid_resolution_m = 1 would do"));
 }
 
 TEST_CASE("a start that cannot be reached says what would do") {
