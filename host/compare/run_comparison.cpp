@@ -69,6 +69,19 @@ std::uint32_t pairs_of(const Findings& findings, std::uint32_t& only_first, std:
   return pairs;
 }
 
+// The trials in the situations of both runs.
+std::vector<std::size_t> trials_of_both(const Findings& findings) {
+  std::vector<std::size_t> both;
+  for (std::size_t i = 0; i < findings.situations.size() && findings.entries.size() > 1; ++i) {
+    const auto& before = findings.trials[0][i];
+    const auto& after = findings.trials[1][i];
+    if (before.empty() || after.empty()) continue;
+    both.insert(both.end(), before.begin(), before.end());
+    both.insert(both.end(), after.begin(), after.end());
+  }
+  return both;
+}
+
 // How values of a metric count, by the layouts.
 CountedValue rule_of(const std::string& metric, const ReportLayouts& layouts) {
   CountedValue rule;
@@ -172,7 +185,7 @@ RunComparison compare_runs(const ReportRun& before, const ReportRun& after, cons
   const Findings findings = findings_of(runs);
   RunComparison result;
   result.pairs = pairs_of(findings, result.only_before, result.only_after);
-  result.met = met_by_all(runs.trials);
+  result.met = observations.met_by(trials_of_both(findings));
   result.changes = changes_between(before.manifest, after.manifest);
   result.libraries = libraries_of(before.manifest, after.manifest);
 

@@ -49,6 +49,12 @@ expect_status 0 "$host" compare "$scratch/few" "$scratch/changed" --metric succe
 grep -Eq "success +12 +3 .* 0.100 .* –$" "$scratch/stdout" ||
   fail "three observations have a p: $(cat "$scratch/stdout")"
 
+# of two runs that share a part of their tasks, that part is counted
+expect_status 0 "$host" "$scratch/tasks.toml" --quiet --trials 10 --out "$scratch/part"
+expect_status 0 "$host" compare "$before" "$scratch/part" --metric success
+grep -q "^40 trials in both, 120 only before, 0 only after: 10 drawn tasks$" "$scratch/stdout" ||
+  fail "tasks of one run alone are counted: $(cat "$scratch/stdout")"
+
 refused() {
   expect_status 2 "$host" compare "${@:2}"
   [[ $(messages) == 1 ]] || fail "not one line: $(cat "$scratch/stderr")"
