@@ -89,8 +89,11 @@ class NarrowWays {
 
   void open() {
     assume_open();
-    thin();
-    if (edges_ == grid_.edges) return;  // most worlds: nothing to look at
+    keep_joining();
+    // what joins nothing even where there is room everywhere: in most worlds, all
+    std::erase_if(between_, [&](std::uint32_t cell) { return edges_[cell] == 0; });
+    std::erase_if(shut_, [&](const auto& side) { return !edge(side.first, side.second); });
+    if (between_.empty() && shut_.empty()) return;
     edges_ = grid_.edges;
     for (const std::uint32_t cell : between_)
       for (std::size_t q = 0; q < quarters; ++q) open_side(cell, q);

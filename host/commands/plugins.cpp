@@ -194,7 +194,7 @@ bool is_library(const std::string& name) {
   return name.find('/') != std::string::npos || fs::path(name).extension() == ".so" || is_python_file(name);
 }
 
-// "dwa" of "dmrp.controller.dwa".
+// "mine" of "org.example.mine".
 std::string short_name(const PluginInfo& info) {
   return info.id.substr(info.id.rfind('.') + 1);
 }

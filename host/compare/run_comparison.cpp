@@ -32,8 +32,16 @@ struct BothRuns {
   bool is_before(std::size_t trial) const { return trial < before.trials.size(); }
 };
 
-// What tells trials apart, without what was measured.
+bool has_one_pedestrian_model(const ReportRun& run) {
+  return !run.trials.empty() && std::all_of(run.trials.begin(), run.trials.end(), [&](const TrialRecord& trial) {
+    return trial.pedestrian_model == run.trials.front().pedestrian_model;
+  });
+}
+
+// What tells trials apart, without what was measured. Where each run has one pedestrian model, or nobody walks, they count as
+// the same.
 std::vector<TrialRecord> keys_of(const ReportRun& before, const ReportRun& after) {
+  const bool is_one_model = has_one_pedestrian_model(before) && has_one_pedestrian_model(after);
   std::vector<TrialRecord> keys;
   for (const ReportRun* run : {&before, &after})
     for (const TrialRecord& trial : run->trials) {
@@ -42,6 +50,7 @@ std::vector<TrialRecord> keys_of(const ReportRun& before, const ReportRun& after
           std::tie(trial.scenario, trial.robots, trial.global_planner, trial.local_controller, trial.pedestrian_model);
       std::tie(key.seed, key.task, key.task_is_drawn, key.swept, key.outcome) =
           std::tie(trial.seed, trial.task, trial.task_is_drawn, trial.swept, trial.outcome);
+      if (is_one_model) key.pedestrian_model = before.trials.front().pedestrian_model;
     }
   return keys;
 }

@@ -106,8 +106,9 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   variant.census = read.census;
   experiment.warnings = read.warnings;
   if (to_plan) check_world(read, variant.types, experiment);
-  const RandomRobots any = {1};
-  check_regions({{&read, &variant.types, &any}}, experiment);
+  experiment.cut_off.push_back([world = WorldUse{read, variant.types, {1}}, settings = experiment.simulation] {
+    return find_cut_off({world}, settings);
+  });
   return experiment;
 }
 

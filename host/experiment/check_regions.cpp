@@ -34,41 +34,41 @@ bool reaches_goals(const core::RobotTask& task, const core::PlanningGrid& planni
 class RegionCheck {
  public:
   explicit RegionCheck(const WorldUse& use)
-      : use_(use), scenario_(use.file->scenario), geometry_(scenario_), drawn_{{}, scenario_.inside} {
-    for (const core::TypeShare& share : use.drawn->types) drawn_.types.push_back(share.type);
+      : use_(use), scenario_(use.file.scenario), geometry_(scenario_), drawn_{{}, scenario_.inside} {
+    for (const core::TypeShare& share : use.drawn.types) drawn_.types.push_back(share.type);
   }
 
   // Finds the regions that cells of these settings may miss; none if they surely miss none.
   void find(const core::SimulationSettings& settings) {
     regions_.reset();
-    if (use_.drawn->most == 0) return;
-    const core::PlanningGrid grid = core::PlanningGrids(geometry_, *use_.types, settings).common(drawn_.types);
+    if (use_.drawn.most == 0) return;
+    const core::PlanningGrid grid = core::PlanningGrids(geometry_, use_.types, settings).common(drawn_.types);
     if (core::has_other_parts(grid, drawn_.inside))
-      regions_.emplace(geometry_, *use_.types, settings, drawn_, proposed_cells_m, most_cells_tried);
+      regions_.emplace(geometry_, use_.types, settings, drawn_, proposed_cells_m, most_cells_tried);
   }
 
   std::size_t regions() const { return regions_ ? regions_->count() : 0; }
 
   std::size_t missed(const core::SimulationSettings& settings) const {
     if (!regions_) return 0;
-    return regions_->missed(core::PlanningGrids(geometry_, *use_.types, settings).common(drawn_.types));
+    return regions_->missed(core::PlanningGrids(geometry_, use_.types, settings).common(drawn_.types));
   }
 
   bool suits(const core::SimulationSettings& settings) const {
     const dmrp_vec2 size = {scenario_.upper.x - scenario_.lower.x, scenario_.upper.y - scenario_.lower.y};
     const double cell_m = settings.grid_resolution_m;
     if (size.x / cell_m * (size.y / cell_m) > most_cells_tried) return false;
-    const core::PlanningGrids grids(geometry_, *use_.types, settings);
+    const core::PlanningGrids grids(geometry_, use_.types, settings);
     if (regions_ && regions_->missed(grids.common(drawn_.types)) > 0) return false;
-    if (use_.drawn->most > 0 && core::part_for_tasks(grids.common(drawn_.types), drawn_.inside).empty()) return false;
+    if (use_.drawn.most > 0 && core::part_for_tasks(grids.common(drawn_.types), drawn_.inside).empty()) return false;
     return std::all_of(scenario_.robots.begin(), scenario_.robots.end(),
                        [&](const core::RobotTask& task) { return reaches_goals(task, grids.of(task.type)); });
   }
 
-  const ScenarioFile& file() const { return *use_.file; }
+  const ScenarioFile& file() const { return use_.file; }
 
  private:
-  WorldUse use_;
+  const WorldUse& use_;
   const core::Scenario& scenario_;
   core::StaticGeometry geometry_;
   core::DrawnFor drawn_;
@@ -99,20 +99,19 @@ double cells_for_all(const Checks& checks, core::SimulationSettings settings) {
 
 }  // namespace
 
-void check_regions(const std::vector<WorldUse>& worlds, Experiment& experiment) {
-  const core::SimulationSettings& settings = experiment.simulation;
+CutOff find_cut_off(const std::vector<WorldUse>& worlds, const core::SimulationSettings& settings) {
   const Checks checks = checks_of(worlds, settings);
-  bool is_any_missed = false;
+  CutOff found;
   for (const auto& check : checks) {
     const std::size_t missed = check->missed(settings);
     if (missed == 0) continue;
-    is_any_missed = true;
     const ScenarioFile& file = check->file();
-    experiment.cut_off.push_back(fmt::format("{}: {} of {} regions cannot be reached with cells of {} m",
-                                             file.document->place(file.size), missed, check->regions(),
-                                             settings.grid_resolution_m));
+    found.lines.push_back(fmt::format("{}: {} of {} regions cannot be reached with cells of {} m",
+                                      file.document->place(file.size), missed, check->regions(),
+                                      settings.grid_resolution_m));
   }
-  if (is_any_missed) experiment.advised_cells_m = cells_for_all(checks, settings);
+  if (!found.lines.empty()) found.advised_cells_m = cells_for_all(checks, settings);
+  return found;
 }
 
 double cells_for_all(const std::vector<WorldUse>& worlds, const core::SimulationSettings& settings) {

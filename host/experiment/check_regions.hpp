@@ -16,14 +16,14 @@ inline constexpr double most_cells_tried = 1e6;  // of a grid that a message pro
 
 // A scenario of an experiment, with the robots that tasks are drawn for.
 struct WorldUse {
-  const ScenarioFile* file;
-  const core::RobotTypes* types;
-  const RandomRobots* drawn;
+  ScenarioFile file;
+  core::RobotTypes types;
+  RandomRobots drawn;
 };
 
-// Says of each scenario with drawn tasks how many regions (core/tasks/free_regions.hpp) its cells cut off from them, and
-// which cells reach all of all scenarios: in experiment.cut_off and experiment.advised_cells_m.
-void check_regions(const std::vector<WorldUse>& worlds, Experiment& experiment);
+// How many regions (core/tasks/free_regions.hpp) the cells of each scenario with drawn tasks cut off from them, and which
+// cells reach all of all scenarios.
+CutOff find_cut_off(const std::vector<WorldUse>& worlds, const core::SimulationSettings& settings);
 
 // The largest of the proposed cells with which listed robots reach their goals and drawn ones all regions, in all
 // scenarios. 0 if there are none.

@@ -35,6 +35,12 @@ struct SettingsSweep {
   std::vector<std::string> values;  // as TOML
 };
 
+// What planning cells cut off.
+struct CutOff {
+  std::vector<std::string> lines{};  // of each scenario with regions that its cells cut off
+  double advised_cells_m = 0.0;      // with which none is; 0: no such cells are known
+};
+
 struct Experiment {
   std::filesystem::path file;  // of experiment.toml, absolute
   std::string text;            // its content
@@ -60,11 +66,10 @@ struct Experiment {
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;
-  double smallest_effect = 0.05;       // that is of interest, in the first criterion of the answer: changes no result
-  std::vector<std::string> warnings;   // one line each
-  std::vector<std::string> cut_off{};  // a line for each scenario with regions that its planning cells cut off
-  double advised_cells_m = 0.0;        // with which none is; 0: no such cells are known
-  std::string chosen_cells{};          // grid_resolution_m = "auto" became, in a line
+  double smallest_effect = 0.05;      // that is of interest, in the first criterion of the answer: changes no result
+  std::vector<std::string> warnings;  // one line each
+  std::vector<std::function<CutOff()>> cut_off{};  // looks for them; workers need not
+  std::string chosen_cells{};                      // grid_resolution_m = "auto" became, in a line
 };
 
 inline const core::SimulationSettings& simulation_of(const Experiment& experiment, const ScenarioVariant& variant) {

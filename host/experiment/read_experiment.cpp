@@ -330,7 +330,7 @@ void keep_first_of_equals(std::vector<std::string>& lines) {
 
 std::vector<WorldUse> worlds_of(const std::vector<ScenarioUse>& uses) {
   std::vector<WorldUse> worlds;
-  for (const ScenarioUse& use : uses) worlds.push_back({&use.file, &use.robot_types, &use.random});
+  for (const ScenarioUse& use : uses) worlds.push_back({use.file, use.robot_types, use.random});
   return worlds;
 }
 
@@ -367,10 +367,11 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
     });
     if (!has_types) continue;
     if (has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
-    bool are_good = true;
     for (const ScenarioUse& use : uses)
-      are_good &= mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
-    if (are_good) check_regions(worlds_of(uses), experiment);
+      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+    if (std::any_of(uses.begin(), uses.end(), [](const ScenarioUse& use) { return use.random.most > 0; }))
+      experiment.cut_off.push_back(
+          [worlds = worlds_of(uses), settings = experiment.simulation] { return find_cut_off(worlds, settings); });
     for (std::size_t i = 0; i < variants; ++i) {
       ScenarioVariant& variant = all[i * points.size() + p] = experiment.scenarios[i];
       if (!experiment.sweeps.empty()) variant.simulation = points[p].simulation;
@@ -383,7 +384,6 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
   experiment.robot = robot;
   experiment.robot_types = read_robot_types(root, robot);
   keep_first_of_equals(experiment.warnings);
-  keep_first_of_equals(experiment.cut_off);
 }
 
 }  // namespace

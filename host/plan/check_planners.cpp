@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,8 +55,15 @@ void check_planners(const Experiment& experiment, const std::filesystem::path& s
 }
 
 std::vector<std::string> cut_off_warnings(const Experiment& experiment) {
-  const double cells_m = experiment.advised_cells_m;
-  std::vector<std::string> warnings = experiment.cut_off;
+  double cells_m = 0.0;
+  std::vector<std::string> warnings;
+  for (const auto& look : experiment.cut_off) {
+    const CutOff found = look();
+    if (found.lines.empty()) continue;
+    cells_m = warnings.empty() ? found.advised_cells_m : std::min(cells_m, found.advised_cells_m);
+    for (const std::string& line : found.lines)
+      if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
+  }
   std::string advice = "; none of the usual smaller cells reach all";
   if (cells_m > 0.0 && !warnings.empty()) {
     Experiment finer = experiment;

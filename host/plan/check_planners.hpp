@@ -16,7 +16,7 @@ namespace dmrp::host {
 // Other experiments start no planner.
 void check_planners(const Experiment& experiment, const std::filesystem::path& shown_file);
 
-// The lines of experiment.cut_off, each with one advice for all scenarios, robots and planners: the cells that reach
+// What experiment.cut_off finds, a line each, with one advice for all scenarios, robots and planners: the cells that reach
 // everything, and the planners that refuse them. Without such lines it starts no planner.
 std::vector<std::string> cut_off_warnings(const Experiment& experiment);
 

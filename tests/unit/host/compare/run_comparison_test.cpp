@@ -71,6 +71,18 @@ TEST_CASE("trials are matched by scenario, robots, seed and labels", "[compare]"
   CHECK(found.only_after == 3);
 }
 
+TEST_CASE("the pedestrian models of two runs that have one each need not have the same label", "[compare]") {
+  auto walked = with_failures(0);
+  for (TrialRecord& trial : walked) trial.pedestrian_model = "orca";
+  auto empty = with_failures(0);
+  for (TrialRecord& trial : empty) trial.pedestrian_model = "";
+  const RunComparison found = compare_runs(run_of(walked), run_of(empty), layouts(), names);
+  CHECK(found.pairs == 10);
+  CHECK(found.combinations.size() == 1);
+  walked.front().pedestrian_model = "social force";
+  CHECK(compare_runs(run_of(walked), run_of(empty), layouts(), names).pairs == 0);
+}
+
 TEST_CASE("combinations on the same task are one observation, and so are its crowds", "[compare]") {
   const auto twice = [](std::uint32_t failing) {
     auto trials = with_failures(failing, 6);
