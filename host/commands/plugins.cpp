@@ -253,6 +253,8 @@ int plugins_command(const PluginsOptions& options) {
     const auto index = std::find(kind_words.begin(), kind_words.end(), options.kind) - kind_words.begin();
     for (ListedLibrary& library : listed)
       std::erase_if(library.plugins, [&](const PluginInfo& info) { return info.kind != kinds[index]; });
+  }
+  if (options.names.empty() || !options.kind.empty()) {
     std::erase_if(listed, [](const ListedLibrary& library) { return library.plugins.empty(); });
     if (listed.empty() && !options.names.empty())
       throw InputError(fmt::format("--kind: {} is no {}", fmt::join(options.names, ", "), options.kind));
