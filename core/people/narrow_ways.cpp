@@ -119,7 +119,7 @@ class NarrowWays {
     change(other, toolkit::opposite_direction(direction_of(quarter)));
   }
 
-  // As if every cell in which there may be room had a way to each side.
+  // Opens a way to each side of every cell in which there may be room.
   void assume_open() {
     std::vector<bool> may_pass(view_.size());
     for (std::uint32_t cell = 0; cell < view_.size(); ++cell) may_pass[cell] = view_.free(cell);
@@ -177,7 +177,7 @@ class NarrowWays {
       if (before[cell] == before[view_.neighbour(cell, direction_of(q))]) set_edge(cell, q, false);
   }
 
-  // By cell: which part of the grid it lies in.
+  // Says of each cell which part of the grid it lies in.
   std::vector<std::uint32_t> parts_of(const std::vector<std::uint8_t>& edges) const {
     const std::uint32_t cells = view_.size();
     std::vector<std::uint32_t> label(cells, no_cell);

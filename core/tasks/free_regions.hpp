@@ -28,7 +28,7 @@ bool has_other_parts(const PlanningGrid& grid, std::span<const dmrp_vec2> inside
 // drawn in, is none of them.
 class FreeRegions {
  public:
-  // At the finest of the resolutions that gives at most `most_cells` cells.
+  // Looks at the finest of the resolutions that gives at most `most_cells` cells.
   FreeRegions(const StaticGeometry& geometry, const RobotTypes& types, const SimulationSettings& settings,
               const DrawnFor& drawn, std::span<const double> resolutions_m, double most_cells);
 

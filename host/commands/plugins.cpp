@@ -214,7 +214,7 @@ ListedLibrary named(const std::string& name, const std::vector<ListedLibrary>& l
   return found;
 }
 
-// Of each kind, a line a plugin.
+// Prints a line a plugin, by kind.
 void print_short(const std::vector<ListedLibrary>& libraries) {
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     std::vector<const PluginInfo*> of_kind;

@@ -23,8 +23,8 @@ std::map<std::string, std::string> identity_of(const Experiment& experiment);
 // SHA-256, hexadecimal.
 std::string digest_of(const std::map<std::string, std::string>& identity);
 
-// Of all keys but those of planners and controllers: runs with the same protocol gave different entries the same tasks under
-// the same rules. SHA-256, hexadecimal.
+// Digests all keys but those of planners and controllers: runs with the same protocol gave different entries the same
+// tasks under the same rules. SHA-256, hexadecimal.
 std::string protocol_of(std::map<std::string, std::string> identity);
 
 // A fingerprint that is equal in all processes of a run: the identity, and the contents of the libraries.

@@ -91,7 +91,7 @@ struct Manifest {
   ExperimentFacts experiment;
   Identity identity;
   std::string digest;      // of the identity
-  std::string protocol{};  // protocol_of() it
+  std::string protocol{};  // protocol_of() the identity
   PluginLimits plugin_limits;
   std::vector<std::string> left_out;  // libraries that could not be loaded, and uses of their plugins
   Machine machine;
