@@ -375,6 +375,7 @@ ResultsDatabase ResultsDatabase::open(const std::filesystem::path& path) {
 
 ResultsDatabase ResultsDatabase::open_read_only(const std::filesystem::path& path) {
   ResultsDatabase database{SqliteConnection(path, SqliteMode::read_only)};
+  database.connection_.execute("BEGIN");  // and never ended: a run that goes on may write between two reads
   check_file(database.connection_, path);
   return database;
 }

@@ -22,6 +22,7 @@ class ResultsDatabase {
 
   // Opens an existing file, and checks it.
   static ResultsDatabase open(const std::filesystem::path& path);
+  // Shows the trials that are written at this moment, whatever a run adds later.
   static ResultsDatabase open_read_only(const std::filesystem::path& path);
 
   // Writes the whole trial or nothing; replaces a trial with the same id.
