@@ -102,7 +102,7 @@ CaseOutcome run_whole_trial(const fs::path& file, const PluginInfo& plugin, std:
                                        for (const FaultRecord& fault : trial.faults) add(fault);
                                    },
                                    [&](std::uint64_t, const FaultRecord& fault) { add(fault); },
-                                   [](const std::string&) {}, [] {}};
+                                   [](const std::string&) {}, [] { return true; }};
     if (supervise(experiment, PlannedTrials({0}), {1, folder.path(), 1}, sinks) == RunEnding::interrupted)
       outcome = {CheckResult::skip, "it was interrupted"};
   } catch (const InputError& error) {

@@ -137,8 +137,7 @@ class TraceSearch {
         missing_.push_back(fmt::format("trial {}: {} was changed after the run", trial.id, trace.string()));
       else if (fs::is_regular_file(trace, ignored))
         stored.push_back({trial.id, trial.seed, trace});
-      else if (recorded_ == RecordTraces::none ||
-               (recorded_ == RecordTraces::failed && trial.outcome == trial_outcome::succeeded))
+      else if (!keeps_trace(recorded_, trial))
         ++unrecorded_;
       else
         missing_.push_back(fmt::format("trial {}: {} is missing", trial.id, trace.string()));
@@ -151,7 +150,7 @@ class TraceSearch {
       print_note(fmt::format("{} ended in a fault: nothing to measure", plural(unfinished_, "trial")));
     if (unrecorded_ > 0)
       print_note(fmt::format("{} without a trace: the run has [record] traces = \"{}\"", plural(unrecorded_, "trial"),
-                             recorded_ == RecordTraces::none ? "none" : "failed"));
+                             trace_choices[static_cast<std::size_t>(recorded_)]));
     for (const std::string& line : missing_) print_note(line);
   }
 

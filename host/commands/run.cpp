@@ -24,6 +24,7 @@
 #include "host/results/manifest.hpp"
 #include "host/results/summary_layout.hpp"
 #include "host/run/debug_trial.hpp"
+#include "host/run/run_cost.hpp"
 #include "host/run/run_description.hpp"
 #include "host/run/run_directory.hpp"
 #include "host/run/run_results.hpp"
@@ -250,7 +251,13 @@ int run_command(const RunOptions& options) {
                                                                      : ResultsDatabase::Finished::all));
 
   if (!is_silent) std::fputs(map_lines(experiment).c_str(), options.json ? stderr : stdout);
-  Progress progress(heading(experiment, trials.left()), trials.left(), is_silent || options.json);
+  RunCost cost(experiment, trials.left(), options.jobs, files.directory());
+  Progress progress(trials.left(), is_silent || options.json);
+  const std::string title = heading(experiment, trials.left());
+  if (trials.left() < fewest_trials_with_cost) progress.begin(title);
+  const auto begin_progress = [&] {
+    if (!progress.has_begun()) progress.begin(title + ": " + cost.words());
+  };
   ProgressLines lines(!options.progress.empty(), trials.left());
   lines.begin(files.directory());
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
@@ -258,6 +265,7 @@ int run_command(const RunOptions& options) {
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
                                    database.write(trial);
                                    lines.add(trial.id, trial.outcome);
+                                   cost.add(trial);
                                    progress.add(fault_note(trial), is_one ? "" : place_of(trial));
                                  },
                                  [&](std::uint64_t trial, const FaultRecord& fault) {
@@ -265,8 +273,13 @@ int run_command(const RunOptions& options) {
                                    progress.note(fault_note(trial, fault));
                                  },
                                  [&](const std::string& text) { progress.note("warning: " + text); },
-                                 [&] { progress.refresh(); }};
+                                 [&] {
+                                   if (cost.is_known()) begin_progress();
+                                   progress.refresh();
+                                   return true;
+                                 }};
   const RunEnding ending = supervise(experiment, std::move(trials), settings, sinks);
+  begin_progress();
   progress.finish();
   const RunResults results = read_results(std::move(database), layout, files.directory());
   write_tables(results, files.directory());

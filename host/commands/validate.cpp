@@ -11,6 +11,7 @@
 #include "host/program/executable.hpp"
 #include "host/ranking/answer.hpp"
 #include "host/report/data/report_run.hpp"
+#include "host/run/run_cost.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -57,6 +58,9 @@ int validate_command(const std::filesystem::path& file) {
              protocol_of(identity_of(experiment)).substr(0, 16));
   fmt::print("{}", map_lines(experiment));
   if (const std::string line = power_line(experiment); !line.empty()) fmt::print("{}\n", line);
+  std::fflush(stdout);
+  if (const std::string cost = sampled_cost(experiment, default_jobs()); !cost.empty())
+    fmt::print("{} trials: {}, with {}\n", count * experiment.trials, cost, plural(default_jobs(), "job"));
   return exit_status::done;
 }
 

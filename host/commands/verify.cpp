@@ -91,7 +91,7 @@ class Rerun {
     const SupervisorSinks sinks = {
         [&](TrialRecord&& trial) { database.write(trial); },
         [&](std::uint64_t trial, const FaultRecord& fault) { database.add_fault(trial, fault); },
-        [](const std::string& text) { warn(text); }, [] {}};
+        [](const std::string& text) { warn(text); }, [] { return true; }};
     const RunEnding ending = supervise(experiment_, PlannedTrials(std::move(numbers)), settings, sinks);
     for (TrialRecord& trial : database.trials()) trials_.emplace(trial.id, std::move(trial));
     return ending;

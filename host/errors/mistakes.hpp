@@ -41,7 +41,7 @@ class Mistakes {
     }
   }
 
-  // Throws what was noted; a mistake that was told twice once. Returns if there is nothing.
+  // Throws all mistakes noted, each once. Returns if there is nothing.
   void end() const;
 
  private:

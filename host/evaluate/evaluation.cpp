@@ -121,8 +121,7 @@ class EvaluationPlanner {
     if (choice_.metric.empty())
       throw InputError(fmt::format("{}: the run's metric {} is in none of its libraries{}",
                                    choice_.run_directory.string(), id, missing_note()));
-    throw InputError(fmt::format("--metric {}: no such metric (there: {}){}{}", id, join_names(known), missing_note(),
-                                 did_you_mean(id, known)));
+    throw InputError(fmt::format("--metric {}: no such metric{}{}", id, among(id, known), missing_note()));
   }
 
   void use_others() {

@@ -74,8 +74,7 @@ PluginUse find_planner(const std::string& id, const std::vector<std::string>& li
       return use;
     }
   }
-  throw InputError(
-      fmt::format("--planner {}: no such planner (there: {}){}", id, join_names(known), did_you_mean(id, known)));
+  throw InputError(fmt::format("--planner {}: no such planner{}", id, among(id, known)));
 }
 
 // Converts "key=value" to a line of TOML. A value that is neither a number, a boolean, an array nor quoted is a string.

@@ -83,6 +83,7 @@ class WorldCheck {
       for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
     mistakes.attempt([&] { check_people(file_, types_, geometry_, planning_, drawn_, experiment_); });
     mistakes.end();
+    check_time_limit();
     if (experiment_.simulation.planning_body == core::PlanningBody::point) return check_margin_of_points();
     check_cell_size();
   }
@@ -96,6 +97,28 @@ class WorldCheck {
   }
   [[noreturn]] void fail_robot(std::size_t robot, const std::string& text) const {
     file_.document->fail(file_.robots[robot], fmt::format("robot {} {}", robot, text));
+  }
+
+  // A robot that is late even on straight ways at full speed.
+  void check_time_limit() {
+    const double limit_s = experiment_.time_limit_set ? static_cast<double>(experiment_.simulation.time_limit_ns) * 1e-9
+                                                      : scenario_.time_limit_s;
+    for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
+      const core::RobotTask& task = scenario_.robots[i];
+      const core::RobotSettings& type = types_.of(task);
+      const double speed = std::hypot(type.v_max, type.v_y_max);
+      double way_m = 0.0;
+      dmrp_pose from = task.start;
+      for (const dmrp_pose& goal : task.goals) {
+        way_m += std::hypot(goal.x - from.x, goal.y - from.y);
+        from = goal;
+      }
+      if (way_m - experiment_.simulation.goal.tolerance_m > limit_s * speed)
+        return warn(file_.robots[i],
+                    fmt::format("robot {} cannot arrive: {:.1f} m as the crow flies take {:.0f} s at {} m/s, and "
+                                "time_limit_s = {}",
+                                i, way_m, way_m / speed, speed, limit_s));
+    }
   }
 
   // Plans may lead robots into walls where points keep less clearance than a robot needs.
@@ -195,11 +218,13 @@ class WorldCheck {
     const core::NearestShape nearest = geometry_->nearest(point);
     const std::string shape(geometry_->shape_name(nearest.shape));
     const bool border = nearest.shape == geometry_->border();
-    const std::string name = border ? shape : "'" + shape + "'";
+    const std::string name = border                        ? shape
+                             : shape.starts_with("cells ") ? fmt::format("a wall of the map, '{}',", shape)
+                                                           : "'" + shape + "'";
     if (nearest.clearance_m < radius_m)
-      fail_robot(robot, fmt::format("{} {} {} (clearance {:.2f} m, needs {:.2f} m){}", verb,
-                                    nearest.clearance_m == 0.0 ? "inside" : "too near to", name, nearest.clearance_m,
-                                    needed_m, shown_map()));
+      fail_robot(robot, fmt::format("{} {} {} at ({}, {}) (clearance {:.2f} m, needs {:.2f} m){}", verb,
+                                    nearest.clearance_m == 0.0 ? "inside" : "too near to", name, point.x, point.y,
+                                    nearest.clearance_m, needed_m, shown_map()));
     if (!outline_is_free(type, pose))
       fail_robot(robot, fmt::format("{} with its outline in a wall or shape, at ({}, {}, {:.2f} rad)", verb, pose.x,
                                     pose.y, pose.theta));

@@ -43,6 +43,7 @@ constexpr std::size_t max_points = 1000;
 constexpr const char* swept_tables[] = {"simulation", "recovery", "navigation", "robot"};
 constexpr std::int64_t max_trials = 1'000'000;
 constexpr std::uint64_t max_trials_in_all = 10'000'000;
+constexpr std::uint64_t most_traced_robots = 10'000;  // of all trials, whose traces are kept by default
 constexpr std::int64_t max_seed = std::numeric_limits<std::int64_t>::max();
 const std::vector<TomlKey> header_keys = {{"name"},
                                           {"seed", range_text(0, max_seed)},
@@ -208,6 +209,15 @@ void check_number_of_trials(const TomlTable& root, const Experiment& experiment)
                                        experiment.trials, count, count * experiment.trials, max_trials_in_all);
   const auto trials = header.find("trials");  // unless the command line alone has it
   trials ? trials->fail(text) : header.fail(text);
+}
+
+// Unless the experiment says so, a long run does not keep every trace: one of a robot's trial has 2 to 20 kB.
+void choose_traces(const TomlTable& root, Experiment& experiment) {
+  const auto record = root.find_table("record");
+  if (record && record->find("traces")) return;
+  std::uint64_t robots = 0;
+  for (const Combination& one : combinations(experiment)) robots += robot_count(experiment.scenarios[one.scenario]);
+  if (robots * experiment.trials > most_traced_robots) experiment.traces = RecordTraces::some;
 }
 
 // Something must be left of what the experiment compares.
@@ -428,6 +438,7 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   const bool has_worlds =
       has_settings && mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
   if (has_worlds) mistakes.attempt([&] { check_number_of_trials(root, experiment); });
+  if (has_worlds) choose_traces(root, experiment);
   if (has_worlds) mistakes.attempt([&] { check_windows(root, experiment); });
   if (has_worlds) mistakes.attempt([&] { check_replanning(root, experiment); });
   if (has_worlds) mistakes.attempt([&] { read_fallback_planners(root, all_libraries, experiment); });

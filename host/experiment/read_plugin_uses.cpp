@@ -53,8 +53,8 @@ std::optional<FoundPlugin> find_plugin(const TomlValue& use, const std::string& 
       if (info.kind == kind) same_kind.push_back(info.id);
     }
   if (!all_libraries) return std::nullopt;
-  const std::string why = fmt::format("no {} '{}' in the loaded libraries (there: {}){}", kind_name(kind), id,
-                                      join_names(same_kind), did_you_mean(id, same_kind));
+  const std::string why =
+      fmt::format("no {} '{}' in the loaded libraries{}", kind_name(kind), id, among(id, same_kind));
   if (experiment.unloadable.empty()) use.fail(why);
   leave_out(use, why, experiment);
   return std::nullopt;

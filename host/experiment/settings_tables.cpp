@@ -173,8 +173,8 @@ Settings ending_settings(core::SimulationSettings& to) {
 }
 
 Settings record_settings(Experiment& experiment) {
-  return {choice("traces", experiment.traces, {"all", "failed", "none"}), boolean("scans", experiment.scans),
-          boolean("annotations", experiment.annotations)};
+  return {choice("traces", experiment.traces, {trace_choices.begin(), trace_choices.end()}),
+          boolean("scans", experiment.scans), boolean("annotations", experiment.annotations)};
 }
 
 Settings benchmark_settings(Experiment& experiment) {

@@ -19,10 +19,10 @@ std::string counted(std::uint64_t count, const std::string& noun) {
 std::string value_words(const Criterion& criterion, double value) {
   return criterion.share()                          ? fmt::format("{} {:.2f}", criterion.name, value)
          : criterion.kind == Criterion::Kind::delay ? fmt::format("{} {:.2f} s", criterion.name, value)
-                                                    : fmt::format("{:.2f} s per metre of its shortest way", value);
+                                                    : fmt::format("{:.2f} s per metre of shortest path", value);
 }
 
-// "safe success 0.91 [0.83, 0.96], 1.20 s per metre of its shortest way"
+// "safe success 0.91 [0.83, 0.96], 1.20 s per metre of shortest path"
 std::string means_words(const Answer& answer, const RankedCombination& one) {
   std::string words;
   for (std::size_t i = 0; i < answer.criteria.size(); ++i) {
@@ -232,9 +232,9 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   const auto add = [&](std::string line) {
     if (!line.empty()) lines.push_back(std::move(line));
   };
+  add(best_line(answer));
   add(one_task_line(answer));
   for (const FactorEffects& factor : answer.factors) add(factor_line(answer, factor));
-  add(best_line(answer));
   if (answer.in_general) add(general_line(answer));
   add(people_line(answer));
   add(worse_line(answer));

@@ -109,7 +109,8 @@ std::string cause_words(std::vector<FailureCause> causes) {
   for (const FailureCause& cause : causes) {
     if (cause.robots == 0) continue;
     words += (words.empty() ? "" : ", ") + std::to_string(cause.robots) + " " + cause.cause;
-    std::string more = cause.roots > 0 ? "roots: " + std::to_string(cause.roots) : "";
+    std::string more =
+        cause.roots > 0 ? "by " + std::to_string(cause.roots) + (cause.roots == 1 ? " robot" : " robots") : "";
     if (cause.after_contact > 0)
       more += (more.empty() ? "" : "; ") + std::to_string(cause.after_contact) + " after a contact";
     if (!more.empty()) words += " (" + more + ")";

@@ -41,10 +41,10 @@ std::uint32_t excluded_robots(const std::string& arrived, const TrialRecord& tri
 // Adds the robots of a cause to a list.
 void add_cause(std::vector<FailureCause>& causes, const FailureCause& cause);
 
-// "9 held behind another robot (roots: 2), 3 stuck (1 after a contact)", the most frequent first; "" without robots.
+// "9 held behind another robot (by 2 robots), 3 stuck (1 after a contact)", the most frequent first; "" without robots.
 std::string cause_words(std::vector<FailureCause> causes);
 
-// "12 did not arrive: 9 held behind another robot (roots: 2), 3 stuck"; "" if all arrived.
+// "12 did not arrive: 9 held behind another robot (by 2 robots), 3 stuck"; "" if all arrived.
 // Without exclusions: these robots arrived.
 std::string failures_line(std::span<const CombinationFailures> failures);
 

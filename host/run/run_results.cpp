@@ -94,12 +94,18 @@ std::string graded_table(std::span<const GradedSeries> all) {
   return out;
 }
 
-// Which combination is better, below the table at the end of a run: the answer's heading and sentences
-// (answer_text.hpp), indented and wrapped at `width` columns (0: not wrapped).
-std::string answer_block(const Answer& answer, std::span<const CombinationFailures> failures, std::size_t width) {
-  std::string block = wrapped_text(answer_heading(answer) + ":", width, "  ");
-  for (const std::string& line : answer_lines(answer, failures)) block += wrapped_text(line, width, "    ");
-  return block;
+// Which combination is better, in sentences (answer_text.hpp) that are indented and wrapped at `width` columns (0: not
+// wrapped): what stands above the table, and what explains it below.
+struct AnswerBlocks {
+  std::string first;
+  std::string rest;
+};
+AnswerBlocks answer_blocks(const Answer& answer, std::span<const CombinationFailures> failures, std::size_t width) {
+  const std::vector<std::string> lines = answer_lines(answer, failures);
+  AnswerBlocks blocks{wrapped_text(answer_heading(answer) + ". " + lines.front(), width, "  ") + "\n", ""};
+  for (std::size_t i = 1; i < lines.size(); ++i) blocks.rest += wrapped_text(lines[i], width, "  ");
+  if (!blocks.rest.empty()) blocks.rest += "\n";
+  return blocks;
 }
 
 // Says what the combination with the fewest observations has met, if that is too little.
@@ -138,8 +144,12 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   style.ansi = has_colors(STDOUT_FILENO);
   const auto marks = best_marks(layout, results.metrics, results.trials, Contestants::planners_and_controllers);
   const std::size_t width = style.width > 0 ? style.width : text_width;
+  const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
+  AnswerBlocks answer;
+  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
+    answer = answer_blocks(found.front(), failures, width);
   if (!all_graded) {
-    fmt::print("\n{}", summary_table(layout, results.summarised, results.summaries, marks, style));
+    fmt::print("\n{}{}", answer.first, summary_table(layout, results.summarised, results.summaries, marks, style));
     fmt::print("{}\n", table_legend(layout, results.summarised, results.summaries, met_by_all(results.trials), marks,
                                     {width, style.ansi}));
   }
@@ -148,9 +158,7 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));
   if (const std::string caution = caution_about_few(results.summaries); !caution.empty())
     fmt::print("  {}\n\n", colored(caution, TextColor::yellow, style.ansi));
-  const std::vector<CombinationFailures> failures = failure_causes(layout, results.trials);
-  if (const auto found = answers(layout, results.metrics, results.trials); !found.empty() && !all_graded)
-    fmt::print("{}\n", answer_block(found.front(), failures, width));
+  fmt::print("{}", answer.rest);
   const std::string growth = growth_line(read_manifest(directory / "manifest.json").experiment);
   if (!growth.empty()) fmt::print("  {}\n\n", growth);
   fmt::print("  {}\n", closing_line(layout, results.trials));

@@ -59,8 +59,7 @@ void read_regions(const TomlTable& root, std::vector<std::string>& names, Scenar
 std::uint32_t region_index(const TomlValue& value, const std::vector<std::string>& names) {
   const std::string name = value.text();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    value.fail(fmt::format("no region '{}' (there: {}){}", name, join_names(names), did_you_mean(name, names)));
+  if (found == names.end()) value.fail(fmt::format("no region '{}'{}", name, among(name, names)));
   return static_cast<std::uint32_t>(found - names.begin());
 }
 

@@ -197,8 +197,8 @@ std::string unknown_type(const std::string& name, const core::RobotTypes& types)
   std::vector<std::string> names;
   for (const core::RobotSettings& type : types.all())
     if (!type.type.empty()) names.push_back(type.type);
-  return fmt::format("unknown type '{}' (there: {}){}", name,
-                     names.empty() ? "no [robot_type.NAME]" : join_names(names), did_you_mean(name, names));
+  return fmt::format("unknown type '{}'{}", name,
+                     names.empty() ? " (there: no [robot_type.NAME])" : among(name, names));
 }
 
 }  // namespace

@@ -34,10 +34,7 @@ std::string duration(double s) {
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-// Where standard output is closed or full, the run goes on without; fmt::print would throw.
-void show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-}
+constexpr const char* cleared = "\r\x1b[2K";
 
 }  // namespace
 
@@ -79,18 +76,37 @@ std::string progress_line(const std::string& heading, std::uint64_t done, std::u
   return count.size() + times.size() <= width ? count + times : count;
 }
 
-Progress::Progress(std::string heading, std::uint64_t total, bool quiet)
-    : heading_(std::move(heading)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
-  if (!quiet_ && (!terminal_ || !has_room_beside_bar(heading_, total_, usable_width()))) {
+Progress::Progress(std::uint64_t total, bool quiet)
+    : total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(monotonic_ns()) {
+  if (quiet_ || !terminal_) return;
+  std::fputs("timing the first trials ...", stdout);
+  std::fflush(stdout);
+}
+
+void Progress::begin(std::string heading) {
+  begun_ = true;
+  heading_ = std::move(heading);
+  if (quiet_) return;
+  if (terminal_) show(cleared);
+  if (!terminal_ || !has_room_beside_bar(heading_, total_, usable_width())) {
     show(heading_ + "\n");
     heading_.clear();
   }
+  show(waiting_);
   std::fflush(stdout);
   refresh();
 }
 
+// Where standard output is closed or full, the run goes on without; fmt::print would throw.
+void Progress::show(const std::string& text) {
+  if (begun_)
+    std::fputs(text.c_str(), stdout);
+  else
+    waiting_ += text;
+}
+
 Progress::~Progress() {
-  if (!quiet_ && terminal_ && drawn_ns_ > 0) show("\n");  // an error message starts on a new line
+  if (!quiet_ && terminal_ && (!begun_ || drawn_ns_ > 0)) std::fputs("\n", stdout);  // before an error message
   std::fflush(stdout);
 }
 
@@ -99,18 +115,18 @@ double Progress::elapsed_s() const {
 }
 
 void Progress::draw() const {
-  show("\r\x1b[2K" + progress_line(heading_, done_, total_, elapsed_s(), usable_width(), at_));
+  std::fputs((cleared + progress_line(heading_, done_, total_, elapsed_s(), usable_width(), at_)).c_str(), stdout);
   std::fflush(stdout);
 }
 
 void Progress::refresh() {
-  if (quiet_ || !terminal_ || monotonic_ns() - drawn_ns_ < redraw_ns) return;
+  if (quiet_ || !begun_ || !terminal_ || monotonic_ns() - drawn_ns_ < redraw_ns) return;
   draw();
   drawn_ns_ = monotonic_ns();
 }
 
 void Progress::note(const std::string& line) {
-  if (!quiet_) show((terminal_ ? "\r\x1b[2K" : "  ") + line + "\n");
+  if (!quiet_) show((terminal_ ? cleared : "  ") + line + "\n");
 }
 
 void Progress::add(const std::string& text, const std::string& at) {
@@ -118,7 +134,7 @@ void Progress::add(const std::string& text, const std::string& at) {
   at_ = done_ < total_ ? at : "";
   if (quiet_) return;
   if (!text.empty()) note(text);
-  if (terminal_) return draw();
+  if (terminal_) return begun_ ? draw() : void();
   show(fmt::format("  {}/{}  {}{}{}\n", done_, total_, duration(elapsed_s()), at.empty() ? "" : "  ", at));
   std::fflush(stdout);
 }

@@ -10,11 +10,15 @@ namespace dmrp::host {
 
 class Progress {
  public:
-  // `heading`: what the run is; a line of its own where the bar has no room beside it. Writes to standard output.
-  Progress(std::string heading, std::uint64_t total, bool quiet);
+  // Writes to standard output, from begin() on; what is to be shown before waits for it.
+  Progress(std::uint64_t total, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
+  // `heading`: what the run is; a line of its own where the bar has no room beside it.
+  void begin(std::string heading);
+  bool has_begun() const { return begun_; }
 
   // Counts a finished trial. `text`: for note(), or "". `at`: where the run is, shown behind the times; or "".
   void add(const std::string& text, const std::string& at);
@@ -30,6 +34,7 @@ class Progress {
 
  private:
   void draw() const;
+  void show(const std::string& text);
   double elapsed_s() const;
 
   std::string heading_;  // beside the bar
@@ -38,6 +43,8 @@ class Progress {
   std::uint64_t done_ = 0;
   bool quiet_;
   bool terminal_;
+  bool begun_ = false;
+  std::string waiting_;  // for begin()
   std::int64_t start_ns_;
   std::int64_t drawn_ns_ = 0;  // 0: not drawn, or finished
 };

@@ -89,6 +89,10 @@ std::vector<Row> make_rows(std::span<const CombinationSummary> summaries) {
   return rows;
 }
 
+bool is_partly_defined(const CombinationSummary& summary, std::size_t metric) {
+  return summary.metrics[metric].defined > 0 && summary.metrics[metric].defined < summary.trials;
+}
+
 // `share`: intervals stand beside the means.
 Column make_column(const SummaryTableColumn& layout, std::span<const MetricColumn> metrics, std::size_t metric,
                    bool share, const std::vector<Row>& rows, std::span<const BestMark> marks) {
@@ -106,7 +110,7 @@ Column make_column(const SummaryTableColumn& layout, std::span<const MetricColum
     if (share && summary.n > 1)
       cell.text += " [" + fixed(summary.interval.low, layout.decimals) + ", " +
                    fixed(summary.interval.high, layout.decimals) + "]";
-    if (summary.defined > 0 && summary.defined < row.summary->trials)
+    if (is_partly_defined(*row.summary, metric))
       cell.note = " (" + std::to_string(summary.defined) + "/" + std::to_string(row.summary->trials) + ")";
     cell.best = std::find(marks.begin(), marks.end(), BestMark{row.summary->combination, layout.metric}) != marks.end();
     column.cells.push_back(std::move(cell));
@@ -219,13 +223,18 @@ std::string table_legend(const SummaryLayout& layout, std::span<const MetricColu
   std::vector<std::string> parts = {"means over " + met_words(met)};
   bool spread = false;
   bool marked = false;
+  bool partly = false;
   for (const SummaryTableColumn& column : layout.columns) {
-    if (!index_of(metrics, column.metric)) continue;
+    const std::optional<std::size_t> metric = index_of(metrics, column.metric);
+    if (!metric) continue;
+    partly = partly || std::any_of(summaries.begin(), summaries.end(),
+                                   [&](const CombinationSummary& one) { return is_partly_defined(one, *metric); });
     if (!column.legend.empty()) parts.push_back(column.header + ": " + with_values(column.legend, metrics, summaries));
     spread = spread || index_of(metrics, column.spread);
     marked = marked || std::any_of(marks.begin(), marks.end(),
                                    [&](const BestMark& mark) { return mark.metric == column.metric; });
   }
+  if (partly) parts.push_back("(1/3): 1 of 3 trials has the value");
   if (spread) parts.push_back("±: deviation over time");
   if (marked) parts.push_back(std::string(style.ansi ? "bold" : "*") + ": better than all others");
   std::string text;

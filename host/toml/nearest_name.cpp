@@ -59,6 +59,11 @@ std::string did_you_mean(const std::string& written, const std::vector<std::stri
   return name.empty() ? "" : " (did you mean '" + name + "'?)";
 }
 
+std::string among(const std::string& written, const std::vector<std::string>& known) {
+  const std::string name = nearest_name(written, known);
+  return (name.empty() ? " (" : " (did you mean '" + name + "'? ") + "there: " + join_names(known) + ")";
+}
+
 std::string join_names(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;

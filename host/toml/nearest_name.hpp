@@ -15,6 +15,9 @@ std::string nearest_name(const std::string& written, const std::vector<std::stri
 // " (did you mean 'x'?)" or "".
 std::string did_you_mean(const std::string& written, const std::vector<std::string>& known);
 
+// " (did you mean 'b'? there: a, b, c)", or without the question.
+std::string among(const std::string& written, const std::vector<std::string>& known);
+
 // "a, b, c"; "none" if there are none.
 std::string join_names(const std::vector<std::string>& names);
 

@@ -100,7 +100,7 @@ class Supervisor {
       if (wait_for_workers(stop.descriptor())) return RunEnding::interrupted;
       for (Slot& slot : slots_)
         if (slot.worker) check_time(slot);
-      sinks_.on_idle();
+      if (!sinks_.goes_on()) return RunEnding::interrupted;
     }
     shut_down_workers();
     return RunEnding::done;
@@ -366,7 +366,7 @@ class Supervisor {
       note(text);
     };
     make_folder();
-    if (experiment_.traces == RecordTraces::failed && record.outcome == trial_outcome::succeeded) {
+    if (!keeps_trace(experiment_.traces, record)) {
       fs::remove(stored);  // of an earlier attempt
       return true;
     }

@@ -29,7 +29,7 @@ struct SupervisorSinks {
   // Of a trial that has ended already: destroy() and deinit() are called later.
   std::function<void(std::uint64_t trial, const FaultRecord&)> on_late_fault;
   std::function<void(const std::string&)> on_warning;
-  std::function<void()> on_idle;  // every 100 ms or more often
+  std::function<bool()> goes_on;  // asked every 100 ms or more often; false: the run ends as by a signal
 };
 
 enum class RunEnding { done, interrupted };

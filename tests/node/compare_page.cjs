@@ -104,8 +104,8 @@ const tests = {
     });
     const opened = await open_report(browser, few, {last});
     const verdict = await opened.page.locator('.verdict').textContent();
-    assert.match(verdict, /No metric can be told apart/);
-    assert.match(verdict, /n = 3: no difference can be told apart with fewer than 5/);
+    assert.match(verdict, /No metric differs significantly/);
+    assert.match(verdict, /n = 3: no difference is significant with fewer than 5/);
     for (const row of await opened.page.locator('#run-0 tbody tr').all())
       assert.match((await cells(row)).slice(3, 5).join(), /^—,3$/);
     assert.match(verdict, /2 trials without a partner \(2 before, 0 after\)/);

@@ -346,7 +346,7 @@ const tests = {
     ];
     data.replays = [{trial: 5}];
     same(failures.causes(data), ['oscillation', 'deadlock', 'contact']);
-    assert.strictEqual(failures.count_words({robots: 9, roots: 2}), '9 (roots: 2)');
+    assert.strictEqual(failures.count_words({robots: 9, roots: 2}), '9 (by 2 robots)');
     assert.strictEqual(failures.count_words({robots: 9, roots: 0}), '9');
     same(failures.trial_to_open(data, data.failures[1].causes[0]), {trial: 5, replayed: true});
     same(failures.trial_to_open(data, data.failures[0].causes[0]), {trial: 3, replayed: false});

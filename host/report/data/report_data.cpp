@@ -314,7 +314,7 @@ Json places_table(std::span<const MetricColumn> places) {
   std::string note;
   for (const MetricColumn& place : places) note += (note.empty() ? "" : "; ") + place.name + ": " + place.description;
   return table_of("places", "Between two bounds",
-                  note + ". A dash: the bounds themselves, and where they cannot be told apart.", places);
+                  note + ". A dash: the bounds themselves, and where they do not differ significantly.", places);
 }
 
 // The report's layout with a table of the metrics that plugins beside the built-in ones added and that no table has.

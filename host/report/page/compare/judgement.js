@@ -20,7 +20,7 @@ export const WORDS = {
   worse: 'worse',
   changed: 'changed',
   equal: 'equal',
-  unclear: 'not told apart',
+  unclear: 'no significant difference',
   undefined: 'no pair',
 };
 

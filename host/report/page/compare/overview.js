@@ -36,13 +36,13 @@ export function lines(data, run) {
   if (run.differences.length > 0 && run.differences.every((one) => judgement.of(data, one) === 'equal'))
     found.push({kind: 'good', mark: '=', text: 'All values are equal in every trial.'});
   else if (found.length === 0)
-    found.push({kind: 'note', mark: 'i', text: 'No metric can be told apart over all trials.'});
+    found.push({kind: 'note', mark: 'i', text: 'No metric differs significantly over all trials.'});
   const n = Math.max(0, ...run.differences.map((one) => one.n));
   if (n < numbers.FEWEST)
     found.push({
       kind: 'warning',
       mark: '!',
-      text: `n = ${n}: no difference can be told apart with fewer than ${numbers.FEWEST}.`,
+      text: `n = ${n}: no difference is significant with fewer than ${numbers.FEWEST}.`,
     });
   const alone = run.only_before + run.only_after;
   if (alone > 0)

@@ -39,10 +39,10 @@ export function open(data, cell, note) {
     'if the run kept its trace.';
 }
 
-// "9 (roots: 2; 3 after a contact)"
+// "9 (by 2 robots; 3 after a contact)"
 export function count_words(cell) {
   const more = [
-    cell.roots > 0 && `roots: ${cell.roots}`,
+    cell.roots > 0 && `by ${numbers.counted(cell.roots, 'robot')}`,
     cell.after_contact > 0 && `${cell.after_contact} after a contact`,
   ].filter(Boolean);
   return more.length > 0 ? `${cell.robots} (${more.join('; ')})` : String(cell.robots);

@@ -45,7 +45,7 @@ function all_well(t) {
     : `All is well: ${arrived}, no faults, every trial repeatable.`;
 }
 
-// ": 5 held behind another robot (roots: 1), 2 stuck"
+// ": 5 held behind another robot (by 1 robot), 2 stuck"
 function causes_words(data) {
   return data.failures_line.slice(data.failures_line.indexOf(': '));
 }

@@ -127,7 +127,7 @@ function key_words(data, metric) {
     lower: 'Stronger colour: lower, which is better.',
     none: 'Stronger colour: higher; neither direction is better.',
   }[metric.direction];
-  const framed = metric.direction === 'none' ? '' : ' Frame: the best of the scenario, if it can be told apart from all others.';
+  const framed = metric.direction === 'none' ? '' : ' Frame: the best of the scenario, if it differs significantly from all others.';
   return `${labels.metric_with_unit(data, metric.name)}: ${metric.description}. ${better}${framed}`;
 }
 

@@ -73,9 +73,8 @@ traces = "maybe"
             "experiment.toml:4:10: 'trials' must be an integer, not a string",
             "experiment.toml:9:10: 'robots' must be an integer, not a float",
             "experiment.toml:10:18: unknown key 'position' in 'start_jitter' (did you mean 'position_m'?)",
-            "experiment.toml:13:7: no global_planner 'test.planer' in the loaded libraries (there: test.planner) (did "
-            "you "
-            "mean 'test.planner'?)",
+            "experiment.toml:13:7: no global_planner 'test.planer' in the loaded libraries (did you mean "
+            "'test.planner'? there: test.planner)",
             "experiment.toml:14:9: 'label' must be a string, not an integer",
             "experiment.toml:18:21: 'weight' must be a number, not a string",
             "experiment.toml:18:30: unknown key 'wieght' for test.planner (did you mean 'weight'?)",
@@ -86,7 +85,7 @@ traces = "maybe"
             "experiment.toml:32:9: 'v_max' must be positive, not -1",
             "experiment.toml:33:19: 'beams' must be at least 1, not 0",
             "experiment.toml:33:36: 'range_max_m' must be positive, not -2",
-            "experiment.toml:36:10: 'traces' must be one of all, failed, none, not 'maybe'",
+            "experiment.toml:36:10: 'traces' must be one of all, some, failed, none, not 'maybe'",
         });
 }
 
@@ -140,7 +139,7 @@ respawn = "yes"
             "hall/scenario.toml:17:9: 'start' must be [x, y] or [x, y, theta], not 1 number",
             "hall/scenario.toml:18:1: unknown key 'gaol' in [[robot]] (did you mean 'goal'?)",
             "hall/scenario.toml:20:1: [[region]] needs 'upper_m'",
-            "hall/scenario.toml:32:6: no region 'eats' (there: west, east) (did you mean 'east'?)",
+            "hall/scenario.toml:32:6: no region 'eats' (did you mean 'east'? there: west, east)",
             "hall/scenario.toml:33:10: 'people' must be at least 0, not -2",
             "hall/scenario.toml:34:11: 'respawn' must be true or false, not a string",
         });
@@ -183,6 +182,10 @@ TEST_CASE("values that are rarely meant are warned about") {
   CHECK(warnings("[robot_type.tug]\nomega_max = 57.3") ==
         Lines{"experiment.toml:20:13: 'omega_max' is 57.3 rad/s: are these degrees? 57.3 degrees are 1 rad"});
   CHECK(warnings("[robot]\nv_max = 36\na_max = 981").size() == 2);
+  // 9 m; the second robot's tour is longer, and one line is enough
+  CHECK(warnings("[simulation]\ntime_limit_s = 10\n[robot]\nv_max = 0.5") ==
+        Lines{"hall/scenario.toml:21:1: robot 0 cannot arrive: 9.0 m as the crow flies take 18 s at 0.5 m/s, and "
+              "time_limit_s = 10"});
 }
 
 TEST_CASE("what follows from a mistake is not told") {

@@ -310,6 +310,27 @@ TEST_CASE("a number of robots selects the first of the list") {
   CHECK_THROWS_AS(load(experiment_text), InputError);
 }
 
+TEST_CASE("a long run keeps the traces of failed trials and of each combination's first, unless it says otherwise") {
+  const ExperimentFolder folder;
+  CHECK(load(experiment_text).traces == RecordTraces::all);
+  const std::string many = with(experiment_text, "trials = 3", "trials = 5001");  // of two robots
+  const Experiment long_run = load(many);
+  CHECK(long_run.traces == RecordTraces::some);
+  CHECK_THAT(effective_toml(long_run), Catch::Contains("traces = \"some\""));
+  CHECK(load(many + "[record]\ntraces = \"all\"\n").traces == RecordTraces::all);
+  TrialRecord trial;
+  trial.outcome = trial_outcome::succeeded;
+  trial.repetition = 3;
+  CHECK(keeps_trace(RecordTraces::all, trial));
+  CHECK_FALSE(keeps_trace(RecordTraces::some, trial));
+  trial.repetition = 0;
+  CHECK(keeps_trace(RecordTraces::some, trial));
+  CHECK_FALSE(keeps_trace(RecordTraces::failed, trial));
+  trial.outcome = trial_outcome::failed;
+  CHECK(keeps_trace(RecordTraces::failed, trial));
+  CHECK_FALSE(keeps_trace(RecordTraces::none, trial));
+}
+
 TEST_CASE("near starts and libraries with warnings give warnings") {
   const ExperimentFolder folder;
   write_file("hall/scenario.toml", with(scenario_text, "start = [0.5, 3.5, 1.5]", "start = [0.5, 2.5]"));

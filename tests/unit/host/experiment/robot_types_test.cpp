@@ -134,7 +134,7 @@ TEST_CASE("a bad type gets one line") {
   CHECK_THAT(message_of("\n[robot_type.car]\nwheelbase_m = 0.5\n"),
              EndsWith("'wheelbase_m' belongs to drive = 'ackermann', but the drive is 'differential'"));
   CHECK_THAT(message_of(transporter, with_type("transprter")),
-             EndsWith("robot 0 has the unknown type 'transprter' (there: transporter) (did you mean 'transporter'?)"));
+             EndsWith("robot 0 has the unknown type 'transprter' (did you mean 'transporter'? there: transporter)"));
   CHECK_THAT(message_of("", with_type("x")),
              EndsWith("robot 0 has the unknown type 'x' (there: no [robot_type.NAME])"));
   CHECK_THAT(message_of("\n[robot_type.t]\ndrive = \"holonomic\"\n", with_type("t")),

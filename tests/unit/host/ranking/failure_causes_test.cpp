@@ -69,7 +69,7 @@ TEST_CASE("the robots that others wait for are counted once a trial and cause", 
   CHECK(failures[0].causes[0].robots == 8);
   CHECK(failures[0].causes[0].roots == 4);
   CHECK(failures[0].causes[1].roots == 0);
-  CHECK(failures_line(failures) == "10 did not arrive: 8 held behind another robot (roots: 4), 2 deadlock");
+  CHECK(failures_line(failures) == "10 did not arrive: 8 held behind another robot (by 4 robots), 2 deadlock");
 }
 
 TEST_CASE("robots that arrive after standstills which run on are counted", "[ranking]") {
