@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes a Debian 12 machine ready and builds the release preset: the host and the plugins, and with --tests the tests
-# too. Run it as often as you like: what is there stays, and a run without --tests leaves built tests alone.
+# Makes a Debian 12 or 13 machine ready and builds the release preset: the host and the plugins, and with --tests, on
+# Debian 12, the tests too. Run it as often as you like: what is there stays, and a run without --tests leaves built tests alone.
 # Other arguments go to CMake's configuration, as in ./setup.sh -DDMRP_WARNINGS_AS_ERRORS=ON
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -13,7 +13,7 @@ test_libraries=(catch2 coinor-libipopt-dev python3-numpy python3-pandas python3-
   python3-setuptools python3-wheel python3-pip python3-zstandard mypy)
 # tool:package; a tool that is on the path is kept, wherever it came from
 tools=(g++:build-essential make:build-essential cmake:cmake ninja:ninja-build pkg-config:pkg-config sqlite3:sqlite3
-  esbuild:esbuild)
+  esbuild:esbuild file:file) # cpack asks `file`
 
 tests=false
 arguments=()

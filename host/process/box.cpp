@@ -163,7 +163,8 @@ std::string gaps() {
     return "plugins can change the memory of your other processes: you are root, and the kernel's Landlock does not "
            "refuse it";
   if (const std::string why = view::gap(); !why.empty())
-    return "plugins can read and change your files, and reach the network (" + why + ")";
+    return "plugins can read and change your files, and reach the network (" + why +
+           "): allow user namespaces (docs/attacks.md says how), or run none that you do not trust";
   return "";
 }
 

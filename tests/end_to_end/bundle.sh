@@ -3,6 +3,7 @@
 # A bundle runs elsewhere with the same bits, and is a run directory.
 # Called as: bundle.sh DMRP_HOST LIBRARY_WITH_PLANTED_FAULTS
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+unshare --user --mount true 2>/dev/null || { echo "skipped: the kernel refuses namespaces" && exit 77; }
 planted=$2
 
 # expect_refusal PATTERN COMMAND...: one line, and status 2

@@ -21,6 +21,8 @@ expect_status() {
   local expected=$1 status=0
   shift
   "$@" >"$scratch/stdout" 2>"$scratch/stderr" || status=$?
+  # on a machine that refuses namespaces each run says so; hostile.sh tests that line
+  sed -i '/(namespaces: none in this test)/!{/reach the network (namespaces: /d}' "$scratch/stderr"
   ((status == expected)) && return
   cat "$scratch/stdout" "$scratch/stderr"
   fail "exit status $status, not $expected: $*"

@@ -14,6 +14,8 @@
 // A plugin class has a cheap default constructor: the library makes one object to read the parameter table.
 #pragma once
 
+#include <cstdint>
+
 #include "cpp/global_planner.hpp"
 #include "cpp/library.hpp"
 #include "cpp/local_controller.hpp"

@@ -2,6 +2,7 @@
 // cpp/descriptor.hpp: the description of a plugin class, built in its static describe().
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>

@@ -2,6 +2,7 @@
 // cpp/global_planner.hpp: the base class of global planners; the contract is in ../global_planner.h.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 
 #include "../global_planner.h"

@@ -2,6 +2,8 @@
 // cpp/local_controller.hpp: the base class of local controllers; the contract is in ../local_controller.h.
 #pragma once
 
+#include <cstdint>
+
 #include "../local_controller.h"
 #include "path.hpp"
 #include "plugin_base.hpp"

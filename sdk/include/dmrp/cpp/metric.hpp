@@ -2,6 +2,7 @@
 // cpp/metric.hpp: the base class of metrics; the contract is in ../metric.h.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 

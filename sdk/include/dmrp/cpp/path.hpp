@@ -2,6 +2,7 @@
 // cpp/path.hpp: a path as a span of waypoints, and what is said of it; the contract is in ../path.h.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "../path.h"

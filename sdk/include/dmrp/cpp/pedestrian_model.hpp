@@ -2,6 +2,8 @@
 // cpp/pedestrian_model.hpp: the base class of pedestrian models; the contract is in ../pedestrian_model.h.
 #pragma once
 
+#include <cstdint>
+
 #include "../pedestrian_model.h"
 #include "plugin_base.hpp"
 

@@ -2,6 +2,7 @@
 // cpp/plugin_base.hpp: the base class of every plugin class: parameters, the host, the world of the trial.
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <initializer_list>
 #include <memory>

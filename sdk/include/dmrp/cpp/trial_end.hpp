@@ -2,6 +2,8 @@
 // cpp/trial_end.hpp: how a trial ended; the contract is in ../trial_end.h.
 #pragma once
 
+#include <cstdint>
+
 #include "../trial_end.h"
 #include "span.hpp"
 
