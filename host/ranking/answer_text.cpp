@@ -107,11 +107,11 @@ std::string tolerated_words(const Answer& answer) {
 }
 
 // Where plans are compared on one task, twenty crowds meet one plan of each.
-std::string one_task_line(const Answer& answer) {
+std::string one_task_words(const Answer& answer) {
   const bool one_planner = std::all_of(answer.ranking.begin(), answer.ranking.end(), [&](const RankedCombination& one) {
     return one.global_planner == answer.ranking.front().global_planner;
   });
-  return answer.met.tasks == 1 && !one_planner ? "These trials cannot compare planners: all have the same task." : "";
+  return answer.met.tasks == 1 && !one_planner ? " These trials cannot compare planners: all have the same task." : "";
 }
 
 std::string best_line(const Answer& answer) {
@@ -232,8 +232,7 @@ std::vector<std::string> answer_lines(const Answer& answer, std::span<const Comb
   const auto add = [&](std::string line) {
     if (!line.empty()) lines.push_back(std::move(line));
   };
-  add(best_line(answer));
-  add(one_task_line(answer));
+  add(best_line(answer) + one_task_words(answer));
   for (const FactorEffects& factor : answer.factors) add(factor_line(answer, factor));
   if (answer.in_general) add(general_line(answer));
   add(people_line(answer));

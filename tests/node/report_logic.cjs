@@ -244,6 +244,26 @@ const tests = {
       ]
     );
   },
+  'a column that is the same in all rows leaves the table, and is told'() {
+    const data = sample();
+    const [layout] = data.layouts.report.tables;
+    layout.columns.unshift({metric: 'arrived', header: 'arrived', decimals: 2});
+    const [mall, office] = labels.variants(data);
+    const whole = table_model.make(data, layout, [mall]);
+    const {model, equal} = table_model.without_equal_columns(whole, 'success');
+    same(equal, ['arrived 1.00']);
+    same(
+      model.columns.map((column) => column.header),
+      ['time']
+    );
+    same(model.spans[0].count, 1);
+    same(
+      model.groups[0].rows.map((row) => row.cells.map((cell) => cell.mean)),
+      [[0], [1]]
+    );
+    same(table_model.without_equal_columns(whole, 'arrived').model, whole);
+    same(table_model.without_equal_columns(table_model.make(data, layout, [mall, office]), '').equal, []);
+  },
   'a column of medians shows the median, without the interval of the mean'() {
     const data = sample();
     const [layout] = data.layouts.report.tables;

@@ -57,13 +57,17 @@ async function look(browser, report, more = async () => {}) {
 
 const tests = {
   async 'no robot arrives'(browser) {
-    const report = run('late', {change_world: (text) => text.replace(/time_limit_s = .*/, 'time_limit_s = 2.0')});
+    const report = run('late', {change_world: (text) => text.replace(/time_limit_s = .*/, 'time_limit_s = 6.0')});
     await look(browser, report, async ({page, verdict}) => {
       assert.match(verdict, /No robot arrived: all 24 failed/);
       assert.strictEqual(
         await page.locator('.results td[data-about="defined in 0 of 3 trials"] .mean').first().textContent(),
         '—'
       );
+      // a chosen trial opens two seconds before its first contact or failure, here at the time limit of 6 s or before
+      await page.evaluate(() => dmrp.open_replay(dmrp.data.replays[0].trial));
+      const opened_at = parseFloat(await page.getByTestId('replay-time').textContent());
+      assert.ok(opened_at > 0 && opened_at <= 4, `opened at ${opened_at} s`);
     });
   },
 

@@ -30,16 +30,18 @@ function parts() {
     ['answer', answer],
     ['tables', result_tables],
     ['graded', graded_tests],
+    ['order', {absent: answer.absent, mount: answer.mount_order}],
     ['failures', failures],
     ['heat-map', heat_map],
     ['distributions', distributions],
     ['replay', {absent: player.absent, mount: (body, data) => player.mount(body, data, make_3d_view)}],
-    ['diagnosis', diagnosis],
     ['comparisons', comparisons],
-    ['curves', threshold_curves],
     ['completion', completion],
     ['pedestrian-delay', pedestrian_delay],
     ['faults', faults],
+    ['run', overview],
+    ['diagnosis', diagnosis],
+    ['curves', threshold_curves],
     ['metrics', metrics_table],
     ['provenance', provenance],
   ].map(([id, module]) => ({...module, section: document.getElementById(id), done: false}));
@@ -214,7 +216,7 @@ function begin() {
   theme.follow_printing();
   tips.explain_on_demand();
   const data = JSON.parse(document.getElementById('dmrp-data').textContent);
-  overview.mount(document.getElementById('overview'), data);
+  overview.mount_head(document.getElementById('overview'), data);
   const all = with_data(parts(), data);
   const anchor = make_anchor();
   fill_contents(all);

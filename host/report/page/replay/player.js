@@ -24,6 +24,7 @@ const KEY =
   'Large rings: goals. Grey: people.';
 const SCANS_KEY = " Dots in a robot's colour: lidar hits.";
 const ROOM_PX = 16; // around the parts of the player
+const BEFORE_EVENT_S = 2;
 let player = null;
 
 function summary_words(data, entry, replay) {
@@ -188,7 +189,13 @@ function make_player(section, data, make_3d_view) {
     clock.begin(replay.end);
   }
 
-  async function open(trial) {
+  // Where a reader who chose this trial wants to look: just before its first contact or failure.
+  function go_to_event() {
+    const event = scene.events.find(({kind}) => kind === 'contact' || kind === 'failure');
+    if (event) clock.go(event.from - BEFORE_EVENT_S);
+  }
+
+  async function open(trial, at_event = false) {
     const entry = data.replays.find((one) => one.trial === trial);
     if (!entry) return false;
     const request = ++latest;
@@ -202,6 +209,7 @@ function make_player(section, data, make_3d_view) {
       stage.say('');
       summary.textContent = summary_words(data, entry, replay);
       show(replay);
+      if (at_event) go_to_event();
     } catch (error) {
       if (request === latest) stage.say(`This replay cannot be unpacked: ${error.message}`);
       return false;
@@ -278,7 +286,7 @@ export function mount(body, data, make_3d_view) {
   return player.open(first.trial);
 }
 
-// Resolves to whether the trial can be played now.
+// Two seconds before the trial's first contact or failure. Resolves to whether the trial can be played now.
 export function open(trial) {
-  return player ? player.open(trial) : Promise.resolve(false);
+  return player ? player.open(trial, true) : Promise.resolve(false);
 }

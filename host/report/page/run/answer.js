@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// answer.js: which combination is better: the answer's sentences, and the order that they come from. answer.hpp has the
-// rules; nothing is computed here.
+// answer.js: which combination is better: the answer's first sentence at the top of the page; the others, and the order
+// that they come from, below the tables. answer.hpp has the rules; nothing is computed here.
 import * as controls from '../controls.js';
 import {element, fill, head_row, hidden, number_head} from '../elements.js';
 import * as labels from '../labels.js';
@@ -79,17 +79,19 @@ const KEY =
   'Time is that of arrival over the length of the robot\u2019s shortest way, of robots that arrived. Below each mean: its ' +
   '95 % interval, and the paired difference to the first. Framed: what tells that it is not the best.';
 
-function answer_element(answer) {
+function first_element(answer) {
   return [
-    element('h3', {}, answer.heading),
-    element('ul', {class: 'answer-lines'}, answer.lines.map((line) => element('li', {}, line))),
-    element(
-      'details',
-      {class: 'order'},
-      element('summary', {}, `The order of ${numbers.counted(answer.ranking.length, 'combination')}`),
-      scroll_box({'aria-label': 'Order'}, table(answer)),
-      element('p', {class: 'note'}, KEY)
-    ),
+    element('p', {class: 'answer-first'}, answer.lines[0]),
+    element('p', {class: 'note'}, `${answer.heading}.`),
+  ];
+}
+
+function order_element(answer) {
+  return [
+    element('ul', {class: 'answer-lines'}, answer.lines.slice(1).map((line) => element('li', {}, line))),
+    element('h3', {class: 'order-title'}, `The order of ${numbers.counted(answer.ranking.length, 'combination')}`),
+    scroll_box({'aria-label': 'Order'}, table(answer)),
+    element('p', {class: 'note'}, KEY),
   ];
 }
 
@@ -98,11 +100,19 @@ export function absent(data) {
   return data.answers.length > 0 ? null : 'there is one combination, or its success was not measured';
 }
 
-export function mount(body, data) {
+function mount_with(body, data, made) {
   const holder = element('div', {class: 'answer'});
-  const show = (index) => fill(holder, answer_element(data.answers[Number(index)]));
+  const show = (index) => fill(holder, made(data.answers[Number(index)]));
   const options = data.answers.map((answer, i) => ({value: String(i), label: scope_words(data, answer)}));
   const choose = (options.length <= 4 ? controls.segmented : controls.select)('Scenario', options, '0', show);
   show(0);
   fill(body, choose && controls.row(choose), holder);
+}
+
+export function mount(body, data) {
+  mount_with(body, data, first_element);
+}
+
+export function mount_order(body, data) {
+  mount_with(body, data, order_element);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// overview.js: the head of the page: the configuration of the run, its verdict and its main figures.
+// overview.js: the head of the page, with the run's verdict; and its section "The run": main figures, scenarios, choices.
 import {element, fill, hidden} from '../elements.js';
 import * as labels from '../labels.js';
 import * as numbers from '../numbers.js';
@@ -104,19 +104,20 @@ function choices(data) {
   return list;
 }
 
-export function mount(body, data) {
+export function mount_head(body, data) {
   document.title = `${data.run.name} · dmrp report`;
   fill(
     body,
     element(
       'div',
       {class: 'title-line'},
-      element('div', {}, element('p', {class: 'kicker'}, 'dmrp benchmark report'), element('h1', {}, data.run.name)),
+      element('div', {}, element('h1', {}, data.run.name), element('p', {class: 'subtitle'}, subtitle(data))),
       theme.button()
     ),
-    element('p', {class: 'subtitle'}, subtitle(data)),
-    verdict_list(data),
-    figures(data),
-    element('div', {class: 'what-was-run'}, scenario_list(data), choices(data))
+    verdict_list(data)
   );
+}
+
+export function mount(body, data) {
+  fill(body, figures(data), element('div', {class: 'what-was-run'}, scenario_list(data), choices(data)));
 }

@@ -165,8 +165,16 @@ function arranged(layout, all, chosen) {
   return is_across ? {layout, variants: all} : {layout: {...layout, across: []}, variants: chosen};
 }
 
+// "IBTR: inter-robot blocking time ratio": the abbreviations in a table's heads.
+function legend_words(data, model) {
+  const headers = new Set(model.columns.map((column) => column.header));
+  const spelled = data.layouts.summary.columns.filter(({header, legend}) => legend && headers.has(header));
+  return spelled.map(({header, legend}) => `${header}: ${legend.replace(/,? on cells of .*/, '')}`).join(' · ');
+}
+
 function table_element(data, {layout, variants}) {
-  const model = table_model.make(data, layout, variants);
+  const whole = table_model.make(data, layout, variants);
+  const {model, equal} = table_model.without_equal_columns(whole, data.layouts.summary.arrived);
   if (model.columns.length === 0) return null;
   const table = element('table', {class: 'results', id: `table-${layout.id}`});
   const bodies = model.groups
@@ -181,7 +189,15 @@ function table_element(data, {layout, variants}) {
     ...bodies.map((one) => one.body)
   );
   const sort = sorter(table, model, bodies);
-  return titled_table(`title-${layout.id}`, layout.title, [layout.note, labels.population(data)].filter(Boolean).join(' '), table);
+  const notes = [
+    layout.note,
+    labels.population(data),
+    equal.length > 0 && `The same in all rows: ${equal.join(', ')}.`,
+  ];
+  const titled = titled_table(`title-${layout.id}`, layout.title, notes.filter(Boolean).join(' '), table);
+  const legend = legend_words(data, model);
+  if (legend) titled.append(element('p', {class: 'note legend-line'}, legend));
+  return titled;
 }
 
 const key_of = (data) =>

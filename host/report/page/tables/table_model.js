@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // table_model.js: the content of a result table: columns, groups of rows, the best of each column, the order of rows.
 import * as labels from '../labels.js';
+import * as numbers from '../numbers.js';
 import * as ranking from '../ranking.js';
 
 // The rows of a table. Rows by planner alone summarise all controllers and pedestrian models.
@@ -103,6 +104,36 @@ function across(data, layout, variants) {
     columns,
     groups: [{title: null, rows: table_rows}],
     spans: variants.map((variant) => ({title: variant.label, count: per_variant})),
+  };
+}
+
+// Columns that are the same in every row tell nothing apart: they leave the table. `kept`: the metric that stays.
+// Returns the rest, and what left in words: "overlap of bodies 0.000".
+export function without_equal_columns(model, kept) {
+  const rows = model.groups.flatMap((group) => group.rows);
+  const value = (cell) => JSON.stringify(cell && [cell.mean, cell.low, cell.high, cell.spread]);
+  const is_equal = (c) =>
+    model.columns[c].metric.name !== kept &&
+    rows.every((row) => row.cells[c] && ranking.is_defined(row.cells[c].mean)) &&
+    rows.every((row) => value(row.cells[c]) === value(rows[0].cells[c]));
+  const columns = model.columns.map((_, c) => c).filter((c) => !is_equal(c));
+  if (rows.length < 2 || model.spans.length > 1 || columns.length === 0) return {model, equal: []};
+  const equal = model.columns.map((_, c) => c).filter((c) => is_equal(c));
+  const picked = (list) => columns.map((c) => list[c]);
+  return {
+    model: {
+      ...model,
+      columns: picked(model.columns),
+      spans: model.spans.map((span) => ({...span, count: columns.length})),
+      groups: model.groups.map((group) => ({
+        ...group,
+        rows: group.rows.map((row) => ({...row, cells: picked(row.cells)})),
+      })),
+    },
+    equal: equal.map((c) => {
+      const {header, decimals, metric} = model.columns[c];
+      return `${header} ${numbers.with_unit(numbers.fixed(rows[0].cells[c].mean, decimals), metric.unit)}`;
+    }),
   };
 }
 

