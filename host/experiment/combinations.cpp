@@ -31,11 +31,6 @@ std::vector<Combination> combinations(const Experiment& experiment) {
   return out;
 }
 
-bool keeps_trace(RecordTraces traces, const TrialRecord& trial) {
-  if (traces == RecordTraces::all || traces == RecordTraces::none) return traces == RecordTraces::all;
-  return trial.outcome != trial_outcome::succeeded || (traces == RecordTraces::some && trial.repetition == 0);
-}
-
 std::set<std::string> plugins_watched_for_memory(const Experiment& experiment) {
   std::set<std::string> ids;
   if (experiment.limits.memory_mb == 0) return ids;

@@ -14,7 +14,6 @@
 #include "host/plugins/library.hpp"
 #include "host/plugins/plugin_info.hpp"
 #include "host/plugins/plugin_use.hpp"
-#include "host/results/trial_record.hpp"
 #include "host/scenario/scenario_variant.hpp"
 
 namespace dmrp::host {
@@ -22,8 +21,6 @@ namespace dmrp::host {
 enum class RecordTraces { all, some, failed, none };  // some: of failed trials, and of each combination's first
 inline constexpr std::array trace_choices = {"all", "some", "failed", "none"};
 
-// Whether the trace of this trial is kept.
-bool keeps_trace(RecordTraces traces, const TrialRecord& trial);
 
 struct RunLimits {
   double planner_time_s = 60.0;  // wall time for one call of plan()

@@ -6,6 +6,7 @@
 #include <dmrp/toolkit/random.hpp>
 
 #include "host/errors/input_error.hpp"
+#include "host/results/trace_path.hpp"
 #include "host/toml/nearest_name.hpp"
 #include "tests/unit/host/experiment/experiment_example.hpp"
 
