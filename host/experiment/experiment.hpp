@@ -21,7 +21,6 @@ namespace dmrp::host {
 enum class RecordTraces { all, some, failed, none };  // some: of failed trials, and of each combination's first
 inline constexpr std::array trace_choices = {"all", "some", "failed", "none"};
 
-
 struct RunLimits {
   double planner_time_s = 60.0;  // wall time for one call of plan()
   double step_time_s = 1.0;      // for every other call
