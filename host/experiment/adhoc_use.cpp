@@ -98,7 +98,8 @@ Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
                                  did_you_mean(scenario, known_scenarios())));
   }
   Experiment experiment;
-  const ScenarioFile read = read_scenario_file(file, scenario.ends_with(".toml") ? scenario : file.string());
+  const ScenarioFile read =
+      read_scenario_file(file, scenario.ends_with(".toml") || is_map_file(scenario) ? scenario : file.string());
   experiment.scenarios.push_back({read.scenario, read.scenario.name, file, read.files});
   ScenarioVariant& variant = experiment.scenarios.back();
   variant.types = robot_types_of(read, experiment.robot, {});

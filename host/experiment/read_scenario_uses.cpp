@@ -75,7 +75,7 @@ TasksKey read_tasks_key(const TomlTable& scenario) {
 
 [[noreturn]] void fail_missing(const TomlValue& use) {
   const std::string name = use.text();
-  if (name.find('/') != std::string::npos || name.ends_with(".toml"))
+  if (name.find('/') != std::string::npos || name.ends_with(".toml") || is_map_file(name))
     use.fail(fmt::format("no scenario '{}' (there is no such file beside the experiment file)", name));
   const char* path = std::getenv("DMRP_SCENARIO_PATH");
   const std::string folders =

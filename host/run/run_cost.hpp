@@ -23,10 +23,10 @@ class RunCost {
   // A trial that has ended, after its trace has been stored.
   void add(const TrialRecord& trial);
 
-  // Whether a trial of each combination has ended, or five seconds have passed.
+  // Whether a trial of each combination has ended, or one has and five seconds have passed, or twenty.
   bool is_known() const;
 
-  // "about 6 min, 1.0 GB"; "more than 3 h" if no trial has ended.
+  // "about 6 min, 1.0 GB"; "probably more than 3 h" if no trial has ended.
   std::string words() const;
 
  private:
@@ -47,7 +47,7 @@ class RunCost {
   double trace_bytes_ = 0.0;
 };
 
-// RunCost::words() of a run that has not begun, from trials in a temporary folder, for five seconds at most; "" if it has
+// RunCost::words() of a run that has not begun, from trials in a temporary folder, as long as it takes to know it; "" if it has
 // too few trials. Throws as supervise().
 std::string sampled_cost(const Experiment& experiment, unsigned jobs);
 

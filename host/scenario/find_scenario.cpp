@@ -30,14 +30,20 @@ std::vector<std::filesystem::path> scenario_folders() {
   return folders;
 }
 
+bool is_map_file(const std::filesystem::path& file) {
+  const std::string type = file.extension().string();
+  return type == ".yaml" || type == ".yml" || type == ".map";
+}
+
 std::filesystem::path find_scenario(const std::string& name_or_path, const std::filesystem::path& base) {
   namespace fs = std::filesystem;
   std::vector<fs::path> candidates;
-  if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml"))
+  const bool is_file = name_or_path.ends_with(".toml") || is_map_file(name_or_path);
+  if (name_or_path.find('/') == std::string::npos && !is_file)
     for (const fs::path& folder : scenario_folders()) candidates.push_back(folder / name_or_path / "scenario.toml");
   else
     candidates = {base / name_or_path, base / name_or_path / "scenario.toml"};
-  if (!name_or_path.starts_with('.') && !name_or_path.ends_with(".toml"))  // "course/door": one of a folder
+  if (!name_or_path.starts_with('.') && !is_file)  // "course/door": one of a folder
     for (const fs::path& folder : scenario_folders()) candidates.push_back(folder / (name_or_path + ".toml"));
   for (const fs::path& candidate : candidates)
     if (std::error_code ignored; fs::is_regular_file(candidate, ignored)) return fs::canonical(candidate);

@@ -100,9 +100,9 @@ void read_flows(const TomlTable& root, const std::vector<std::string>& regions, 
     Mistakes mistakes;
     mistakes.attempt([&] { table.allow_only_keys(flow_keys()); });
     mistakes.attempt([&] {
-      const TomlValue name = table.need("name");
-      flow.name = name.line();
-      refuse_twice(name, "flows", names);
+      const auto name = table.find("name");
+      flow.name = name ? name->line() : fmt::format("flow {}", names.size() + 1);
+      if (name) refuse_twice(*name, "flows", names);
       names.push_back(flow.name);
     });
     mistakes.attempt([&] { flow.regions = read_way(table, flow.name, regions, first_own); });

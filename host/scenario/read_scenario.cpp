@@ -5,6 +5,7 @@
 
 #include "host/errors/mistakes.hpp"
 #include "host/files/read_file.hpp"
+#include "host/scenario/find_scenario.hpp"
 #include "host/scenario/read_crowd.hpp"
 #include "host/scenario/read_map.hpp"
 #include "host/scenario/read_recordings.hpp"
@@ -13,6 +14,7 @@
 #include "host/scenario/robot_tables.hpp"
 #include "host/scenario/scenario_values.hpp"
 #include "host/toml/setting.hpp"
+#include "host/toml/toml_text.hpp"
 
 namespace dmrp::host {
 
@@ -101,12 +103,17 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
   });
 }
 
-void read_name(const TomlTable& header, const std::filesystem::path& file, ScenarioFile& out) {
-  const TomlValue name = header.need("name");
-  out.scenario.name = name.line();
-  const std::string folder = file.parent_path().filename().string();
-  if (file.filename() == "scenario.toml" && out.scenario.name != folder)
-    name.fail(fmt::format("'name' must be that of the folder, '{}', not '{}'", folder, out.scenario.name));
+// By default, the name is that of the folder or file, and the title the name.
+void read_names(const TomlTable& header, const std::filesystem::path& file, core::Scenario& scenario) {
+  const bool has_folder = file.filename() == "scenario.toml";
+  const std::string own = has_folder ? file.parent_path().filename().string() : file.stem().string();
+  const auto name = header.find("name");
+  scenario.name = name ? name->line() : own;
+  if (has_folder && scenario.name != own)
+    name->fail(fmt::format("'name' must be that of the folder, '{}', not '{}'", own, scenario.name));
+  const auto title = header.find("title");
+  scenario.title = title ? title->line() : scenario.name;
+  if (const auto description = header.find("description")) scenario.description = description->line();
 }
 
 void read_extent(const TomlTable& root, const TomlTable& header, ScenarioFile& out) {
@@ -132,9 +139,7 @@ void read_header(const TomlTable& root, const std::filesystem::path& file, Scena
   const TomlTable header = root.need("scenario").table("[scenario]");
   Mistakes mistakes;
   mistakes.attempt([&] { header.allow_only_keys(scenario_header_keys()); });
-  mistakes.attempt([&] { read_name(header, file, out); });
-  mistakes.attempt([&] { scenario.title = header.need("title").line(); });
-  mistakes.attempt([&] { scenario.description = header.need("description").line(); });
+  mistakes.attempt([&] { read_names(header, file, scenario); });
   mistakes.attempt([&] {
     const auto inside = header.find("inside_m");
     if (!inside) return;
@@ -155,6 +160,12 @@ void read_listed_tasks(const TomlTable& root, const std::optional<TaskMap>& map,
   if (!tasks) return read_robots(root, out);
   if (const auto listed = root.find("robot")) listed->fail_at_key("a scenario has either [[robot]] or [robots]");
   read_tasks(*tasks, map, file, shown_path, out);
+}
+
+// Of a map alone, the scenario that has it and nothing else.
+std::string scenario_text(const std::filesystem::path& file, const std::string& shown_path) {
+  if (!is_map_file(file)) return read_file(file, shown_path);
+  return "[scenario]\n[map]\nfile = " + toml_text(file.filename().string()) + "\n";
 }
 
 // The level that the file is read at, by default its first.
@@ -189,7 +200,7 @@ void check_extent(const TomlValue& at, dmrp_vec2 extent) {
 }
 
 std::vector<double> read_levels(const std::filesystem::path& file, const std::string& shown_path) {
-  const TomlDocument document(shown_path, read_file(file, shown_path));
+  const TomlDocument document(shown_path, scenario_text(file, shown_path));
   const auto grade = document.root().find_table("grade");
   return grade ? levels_of(*grade) : std::vector<double>();
 }
@@ -197,7 +208,7 @@ std::vector<double> read_levels(const std::filesystem::path& file, const std::st
 ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::string& shown_path,
                                 std::optional<double> level) {
   ScenarioFile out;
-  const auto document = std::make_shared<TomlDocument>(shown_path, read_file(file, shown_path));
+  const auto document = std::make_shared<TomlDocument>(shown_path, scenario_text(file, shown_path));
   std::vector<TomlKeys> tables = scenario_keys();
   tables.push_back({"", scenario_root_keys});
   document->know(std::move(tables));

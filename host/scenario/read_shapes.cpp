@@ -72,10 +72,11 @@ void read_kind(const TomlTable& root, const std::string& kind, Read&& read, Scen
     core::Shape shape;
     mistakes.attempt([&] { shape = read(table); });
     mistakes.attempt([&] {
-      const TomlValue name = table.need("name");
-      shape.name = name.line();
+      const auto name = table.find("name");
+      shape.name = name ? name->line() : fmt::format("{} {}", kind, out.scenario.shapes.size() + 1);
       for (const core::Shape& other : out.scenario.shapes)
-        if (other.name == shape.name) name.fail(fmt::format("there are two shapes '{}'", shape.name));
+        if (other.name == shape.name)
+          (name ? *name : table.need("name")).fail(fmt::format("there are two shapes '{}'", shape.name));
     });
     mistakes.attempt([&] {
       if (const auto height = table.find("height_m")) shape.height_m = positive(*height, max_coordinate_m);

@@ -311,6 +311,30 @@ TEST_CASE("a number of robots selects the first of the list") {
   CHECK_THROWS_AS(load(experiment_text), InputError);
 }
 
+TEST_CASE("names and titles have defaults, and a map alone is a scenario") {
+  const ExperimentFolder folder;
+  std::string bare = scenario_text;
+  for (const char* line : {"name = \"hall\"\n", "title = \"Hall\"\n", "name = \"wall\"\n", "name = \"across\"\n",
+                           "description = \"a wall in the middle, open at both ends\"\n"})
+    bare = with(bare, line, "");
+  write_file("hall/scenario.toml", bare);
+  const auto hall = load(experiment_text).scenarios[0].scenario;
+  CHECK(hall.name == "hall");
+  CHECK(hall.title == "hall");
+  CHECK(hall.shapes[0].name == "box 1");
+  CHECK(hall.flows[0].name == "flow 1");
+
+  std::string map = "type octile\nheight 12\nwidth 30\nmap\n";
+  for (int row = 0; row < 12; ++row) map += std::string(30, '.') + "\n";
+  write_file("ward.map", map);
+  const Experiment on_map =
+      load(with(experiment_text, "use = \"./hall/scenario.toml\"", "use = \"ward.map\"\nrobots = 2"));
+  CHECK(on_map.scenarios[0].scenario.name == "ward");
+  CHECK(on_map.scenarios[0].scenario.upper.x == 30.0);
+  CHECK(on_map.scenarios[0].drawn_robots == 2);
+  CHECK(on_map.scenarios[0].files.size() == 1);
+}
+
 TEST_CASE("a long run keeps the traces of failed trials and of each combination's first, unless it says otherwise") {
   const ExperimentFolder folder;
   CHECK(load(experiment_text).traces == RecordTraces::all);
