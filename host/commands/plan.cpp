@@ -253,9 +253,7 @@ void add_plan(CLI::App& app) {
   command->add_option("--draw", options->drawn, "instead of --scen and --agents: draw N tasks on the map")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  command
-      ->add_option("--scenario", options->scenario,
-                   "instead of a map: a shipped scenario, or the path of a scenario.toml")
+  command->add_option("--scenario", options->scenario, "a shipped scenario, or the path of a scenario.toml or of a map")
       ->type_name("NAME");
   command->add_option("--planner", options->planner, "global planner")->required()->type_name("ID");
   command->add_option("--plugin", options->plugins, "additional plugin library")

@@ -92,10 +92,11 @@ std::string toml_line(const std::string& setting) {
 
 Experiment adhoc_experiment(const std::string& scenario, bool to_plan) {
   const fs::path file = find_scenario(scenario, fs::current_path());
+  if (file.empty() && (scenario.find('/') != std::string::npos || scenario.ends_with(".toml") || is_map_file(scenario)))
+    throw InputError(fmt::format("no scenario '{}': there is no such file", scenario));
   if (file.empty()) {
-    const auto shipped = shipped_scenarios();
-    throw InputError(fmt::format("no scenario '{}' (shipped: {}){}", scenario, join_names(shipped),
-                                 did_you_mean(scenario, known_scenarios())));
+    throw InputError(fmt::format("no scenario '{}'{} (shipped: {})", scenario,
+                                 did_you_mean(scenario, known_scenarios()), join_names(shipped_scenarios())));
   }
   Experiment experiment;
   const ScenarioFile read =

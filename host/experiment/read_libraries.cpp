@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) known.push_back(entry.path().filename());
   }
   std::sort(known.begin(), known.end());
-  value.fail(fmt::format("no library '{}' (searched: {}){}", name, folders, did_you_mean(name, known)));
+  value.fail(fmt::format("no library '{}'{} (searched: {})", name, did_you_mean(name, known), folders));
 }
 
 // Describes the library, or says in `init_error` why it cannot be loaded.

@@ -184,8 +184,8 @@ fs::path find_parameter_file(const TomlTable& use, const fs::path& base) {
   const std::string name = value->line();
   if (fs::path file = parameter_set(name, base); !file.empty()) return file;
   const std::vector<std::string> shipped = shipped_parameter_sets();
-  value->fail(fmt::format("no parameter file '{}' beside the experiment file (shipped: {}){}", name,
-                          join_names(shipped), did_you_mean(name, shipped)));
+  value->fail(fmt::format("no parameter file '{}' beside the experiment file{} (shipped: {})", name,
+                          did_you_mean(name, shipped), join_names(shipped)));
 }
 
 std::vector<ParameterVariant> read_parameters(const TomlTable& use, const PluginInfo& info, const fs::path& base,

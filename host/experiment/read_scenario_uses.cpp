@@ -80,8 +80,8 @@ TasksKey read_tasks_key(const TomlTable& scenario) {
   const char* path = std::getenv("DMRP_SCENARIO_PATH");
   const std::string folders =
       path && *path ? std::string("DMRP_SCENARIO_PATH is ") + path : "DMRP_SCENARIO_PATH is empty";
-  use.fail(fmt::format("no scenario '{}' (shipped: {}; {}){}", name, join_names(shipped_scenarios()), folders,
-                       did_you_mean(name, known_scenarios())));
+  use.fail(fmt::format("no scenario '{}'{} (shipped: {}; {})", name, did_you_mean(name, known_scenarios()),
+                       join_names(shipped_scenarios()), folders));
 }
 
 // If one number goes beyond the listed robots, the tasks of all numbers are drawn: else a row of numbers would compare
