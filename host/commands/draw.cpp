@@ -206,7 +206,8 @@ int draw_command(const DrawOptions& options) {
 void add_draw(CLI::App& app) {
   const auto options = std::make_shared<DrawOptions>();
   CLI::App* command = app.add_subcommand("draw", "draw a scenario, optionally with planned paths");
-  command->add_option("scenario", options->scenario, "a shipped scenario, or the path of a scenario.toml or of a map")->required();
+  command->add_option("scenario", options->scenario, "a shipped scenario, or the path of a scenario.toml or of a map")
+      ->required();
   command->add_option("--agents", options->agents, "draw N random robots, as plan does, instead of the listed ones")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");

@@ -47,8 +47,8 @@ class RunCost {
   double trace_bytes_ = 0.0;
 };
 
-// RunCost::words() of a run that has not begun, from trials in a temporary folder, as long as it takes to know it; "" if it has
-// too few trials. Throws as supervise().
+// RunCost::words() of a run that has not begun, from trials in a temporary folder, as long as it takes to know it; "" if
+// it has too few trials. Throws as supervise().
 std::string sampled_cost(const Experiment& experiment, unsigned jobs);
 
 }  // namespace dmrp::host
