@@ -58,6 +58,25 @@ std::string version_text() {
   return text + ")";
 }
 
+// Throws InputError at the first option that neither the command nor the program has: the parser would complain of what is
+// missing first, and knows no nearest name.
+void check_options(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const CLI::App* const command = program.get_subcommand(arguments.front());
+  std::vector<const CLI::App*> apps = command->get_subcommands({});  // groups of options
+  apps.insert(apps.end(), {command, &program});
+  std::vector<std::string> known;
+  for (const CLI::App* app : apps)
+    for (const CLI::Option* option : app->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    const std::string name = argument.substr(0, argument.find('='));
+    if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError("dmrp-host " + command->get_name() + ": there is no option '" + name + "'" +
+                       did_you_mean(name, known) + " (see --help)");
+  }
+}
+
 // The arguments with a command or an option first. `EXPERIMENT.toml` means `run EXPERIMENT.toml`, also with options before
 // it, and `help COMMAND` means `COMMAND --help`. Throws InputError if the program has no such command.
 std::vector<std::string> arguments_with_command(const CLI::App& program, std::vector<std::string> arguments) {
@@ -74,7 +93,11 @@ std::vector<std::string> arguments_with_command(const CLI::App& program, std::ve
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   const std::string& written = arguments.front();
-  if (written.starts_with("-") || std::find(names.begin(), names.end(), written) != names.end()) return arguments;
+  if (written.starts_with("-")) return arguments;
+  if (std::find(names.begin(), names.end(), written) != names.end()) {
+    check_options(program, arguments);
+    return arguments;
+  }
   throw InputError("dmrp-host: there is no command '" + written + "'" + did_you_mean(written, names) +
                    "; commands are " + join_names(names));
 }

@@ -39,7 +39,10 @@ TomlDocument::TomlDocument(std::string shown_path, std::string_view text)
   try {
     table_ = std::make_unique<const toml::table>(toml::parse(text, shown_path_));
   } catch (const toml::parse_error& error) {
-    fail(position_of(error.source()), std::string(error.description()));
+    const std::string text(error.description());
+    fail(position_of(error.source()), text.find("unescaped control characters") == std::string::npos
+                                          ? text
+                                          : "the string before has no closing quote on its line");
   }
 }
 

@@ -95,7 +95,7 @@ refused "did you mean 'driving'" --table drivin
 refused "did you mean 'success'" --latex --metric sucess
 refused "none of scenario, robots, people, planner" --latex --rows planet
 refused "no scenario of this run has levels" --thresholds
-refused "not expected: .*--over" --csv --over people
+refused "there is no option .--over." --csv --over people
 refused "^--map 99: .* has [0-9]+ finished trials, from 0 to" --map 99
 refused "'sim_time' is none of the [0-9]+ columns of this run .did you mean 'local_controller.sim_time'" --csv --where sim_time=1
 refused "'crosing' is none of crossing .did you mean 'crossing'" --csv --where scenario=crosing

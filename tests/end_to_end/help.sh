@@ -20,6 +20,8 @@ for command in "" "${commands[@]}"; do
 done
 expect_status 2 "$host" help plam
 grep -q "there is no command 'plam' (did you mean 'plan'?)" stderr || fail "help should name the nearest: $(cat stderr)"
+expect_status 2 "$host" export runs/none --latx
+grep -q "there is no option '--latx' (did you mean '--latex'?)" stderr || fail "an option's nearest name: $(cat stderr)"
 
 # plugins: a line each, one with its parameters by its short name, the nearest name
 expect_status 0 "$host" plugins
