@@ -25,7 +25,7 @@ constexpr double bytes_of_event = 200.0;
 
 using Unit = std::pair<double, const char*>;
 
-// With two digits, in the largest unit of which there is one at least: "1.5 h", "40 min".
+// Writes two digits, in the largest unit of which there is one at least: "1.5 h", "40 min".
 std::string rounded(double value, const std::vector<Unit>& units) {
   Unit unit = units.front();
   for (const Unit& larger : units)

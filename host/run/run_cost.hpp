@@ -12,7 +12,7 @@
 
 namespace dmrp::host {
 
-// Of a run with at least this many trials one wants to know it before.
+// One wants to know it before a run with at least this many trials.
 inline constexpr std::uint64_t fewest_trials_with_cost = 20;
 
 class RunCost {

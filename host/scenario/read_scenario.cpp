@@ -103,7 +103,7 @@ void read_robots(const TomlTable& root, ScenarioFile& out) {
   });
 }
 
-// By default, the name is that of the folder or file, and the title the name.
+// The name defaults to that of the folder or file, and the title to the name.
 void read_names(const TomlTable& header, const std::filesystem::path& file, core::Scenario& scenario) {
   const bool has_folder = file.filename() == "scenario.toml";
   const std::string own = has_folder ? file.parent_path().filename().string() : file.stem().string();
@@ -162,7 +162,7 @@ void read_listed_tasks(const TomlTable& root, const std::optional<TaskMap>& map,
   read_tasks(*tasks, map, file, shown_path, out);
 }
 
-// Of a map alone, the scenario that has it and nothing else.
+// A map alone is a scenario that has it and nothing else.
 std::string scenario_text(const std::filesystem::path& file, const std::string& shown_path) {
   if (!is_map_file(file)) return read_file(file, shown_path);
   return "[scenario]\n[map]\nfile = " + toml_text(file.filename().string()) + "\n";

@@ -97,7 +97,7 @@ void Progress::begin(std::string heading) {
   refresh();
 }
 
-// Where standard output is closed or full, the run goes on without; fmt::print would throw.
+// The run goes on where standard output is closed or full; fmt::print would throw.
 void Progress::show(const std::string& text) {
   if (begun_)
     std::fputs(text.c_str(), stdout);

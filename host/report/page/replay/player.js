@@ -189,7 +189,7 @@ function make_player(section, data, make_3d_view) {
     clock.begin(replay.end);
   }
 
-  // Where a reader who chose this trial wants to look: just before its first contact or failure.
+  // A reader who chose this trial wants to look just before its first contact or failure.
   function go_to_event() {
     const event = scene.events.find(({kind}) => kind === 'contact' || kind === 'failure');
     if (event) clock.go(event.from - BEFORE_EVENT_S);
