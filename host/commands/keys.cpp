@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "host/commands/command.hpp"
@@ -8,6 +9,7 @@
 #include "host/files/read_file.hpp"
 #include "host/program/executable.hpp"
 #include "host/scenario/read_scenario.hpp"
+#include "host/toml/nearest_name.hpp"
 
 namespace dmrp::host {
 namespace {
@@ -36,6 +38,9 @@ class Meanings {
 
 // "  key = default   # meaning (range)", the meanings below one another.
 int keys_command(const std::string& format) {
+  const std::vector<std::string> known = {"experiment", "scenario"};
+  if (std::find(known.begin(), known.end(), format) == known.end())
+    throw InputError(fmt::format("dmrp-host keys: no format '{}'{}", format, among(format, known)));
   constexpr std::size_t most_width = 36;
   const Meanings meanings;
   for (const TomlKeys& table : format == "experiment" ? experiment_keys() : scenario_keys()) {
@@ -55,10 +60,7 @@ void add_keys(CLI::App& app) {
   const auto format = std::make_shared<std::string>();
   CLI::App* command =
       app.add_subcommand("keys", "list the keys of experiment or scenario files, with defaults and meanings");
-  command->add_option("format", *format, "experiment or scenario")
-      ->required()
-      ->check(CLI::IsMember({"experiment", "scenario"}))
-      ->type_name("FORMAT");
+  command->add_option("format", *format, "experiment or scenario")->required()->type_name("FORMAT");
   finish_command(command, "dmrp-host keys experiment", [format] { return keys_command(*format); });
 }
 

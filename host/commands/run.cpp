@@ -55,8 +55,8 @@ struct RunOptions {
   std::optional<std::uint64_t> debugged;  // this trial alone
 };
 
-// "quickstart · mall · 4 robots, 12 people · 3 trials"
-std::string heading(const Experiment& experiment, std::size_t trials) {
+// "quickstart · mall · 4 robots, 12 people · 3 trials"; of a run that goes on, "· 1 of 3 trials left".
+std::string heading(const Experiment& experiment, std::size_t left, std::size_t trials) {
   std::string out = experiment.name;
   if (experiment.scenarios.size() == 1) {
     const core::Scenario& scenario = experiment.scenarios[0].scenario;
@@ -67,7 +67,8 @@ std::string heading(const Experiment& experiment, std::size_t trials) {
   } else {
     out += " · " + plural(experiment.scenarios.size(), "scenario");
   }
-  return out + " · " + plural(trials, "trial");
+  return out + " · " + (left < trials ? fmt::format("{} of ", left) : "") + plural(trials, "trial") +
+         (left < trials ? " left" : "");
 }
 
 // For programs that show progress of their own: a line of JSON at the start, and one for each finished trial.
@@ -253,7 +254,7 @@ int run_command(const RunOptions& options) {
   if (!is_silent) std::fputs(map_lines(experiment).c_str(), options.json ? stderr : stdout);
   RunCost cost(experiment, trials.left(), options.jobs, files.directory());
   Progress progress(trials.left(), is_silent || options.json);
-  const std::string title = heading(experiment, trials.left());
+  const std::string title = heading(experiment, trials.left(), trials.all());
   if (trials.left() < fewest_trials_with_cost) progress.begin(title);
   const auto begin_progress = [&] {
     if (!progress.has_begun()) progress.begin(title + ": " + cost.words());

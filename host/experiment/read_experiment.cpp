@@ -43,7 +43,7 @@ constexpr std::size_t max_points = 1000;
 constexpr const char* swept_tables[] = {"simulation", "recovery", "navigation", "robot"};
 constexpr std::int64_t max_trials = 1'000'000;
 constexpr std::uint64_t max_trials_in_all = 10'000'000;
-constexpr std::uint64_t most_traced_robots = 10'000;  // of all trials, whose traces are kept by default
+constexpr std::uint64_t most_traced_trials = 100;  // whose traces are kept by default
 constexpr std::int64_t max_seed = std::numeric_limits<std::int64_t>::max();
 const std::vector<TomlKey> header_keys = {{"name"},
                                           {"seed", range_text(0, max_seed)},
@@ -211,13 +211,11 @@ void check_number_of_trials(const TomlTable& root, const Experiment& experiment)
   trials ? trials->fail(text) : header.fail(text);
 }
 
-// Unless the experiment says so, a long run does not keep every trace: one of a robot's trial has 2 to 20 kB.
+// Unless the experiment says so, a long run does not keep every trace: one of eight robots has some MB.
 void choose_traces(const TomlTable& root, Experiment& experiment) {
   const auto record = root.find_table("record");
   if (record && record->find("traces")) return;
-  std::uint64_t robots = 0;
-  for (const Combination& one : combinations(experiment)) robots += robot_count(experiment.scenarios[one.scenario]);
-  if (robots * experiment.trials > most_traced_robots) experiment.traces = RecordTraces::some;
+  if (combinations(experiment).size() * experiment.trials > most_traced_trials) experiment.traces = RecordTraces::some;
 }
 
 // Something must be left of what the experiment compares.
@@ -419,6 +417,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   std::vector<TomlKeys> tables = experiment_keys();
   tables.push_back(root_keys());
   document.know(std::move(tables));
+
+  if (const auto scenario = root.find("scenario"); scenario && scenario->is_table() && !root.find("experiment"))
+    scenario->fail("this is a scenario, not an experiment: [[scenario]] use = \"FILE\" of an experiment names it");
 
   Mistakes mistakes;
   mistakes.attempt([&] { root.allow_only_keys(document.keys_of("")->keys); });

@@ -13,9 +13,8 @@ namespace dmrp::host {
 namespace {
 
 constexpr std::string_view prefix_for_tests = "DMRP_TEST_";
-constexpr std::array<std::string_view, 8> passed = {
-    "AMENT_PREFIX_PATH=",    "CONDA_PREFIX=", "MKL_NUM_THREADS=", "OMP_NUM_THREADS=",
-    "OPENBLAS_NUM_THREADS=", "PYTHONHOME=",   "PYTHONPATH=",      "VIRTUAL_ENV="};
+constexpr std::array<std::string_view, 6> passed = {"AMENT_PREFIX_PATH=",    "MKL_NUM_THREADS=", "OMP_NUM_THREADS=",
+                                                    "OPENBLAS_NUM_THREADS=", "PYTHONHOME=",      "PYTHONPATH="};
 
 bool is_passed(std::string_view variable) {
   return variable.starts_with(prefix_for_tests) ||

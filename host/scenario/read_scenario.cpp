@@ -214,6 +214,8 @@ ScenarioFile read_scenario_file(const std::filesystem::path& file, const std::st
   document->know(std::move(tables));
   out.document = document;
   const TomlTable root = out.document->root();
+  if (const auto experiment = root.find("experiment"))
+    experiment->fail("this is an experiment, not a scenario: its [[scenario]] names one");
   const auto grade = root.find_table("grade");
   if (grade) set_level(*grade, level, *document);
   Mistakes mistakes;

@@ -34,6 +34,11 @@ for key in start via group_size vertices_m scen; do
   grep -qE "^  $key( |$)" "$scratch/stdout" || fail "keys scenario lacks $key"
 done
 expect_status 2 "$host" keys experimant
+grep -q "did you mean 'experiment'" stderr || fail "a mistyped format should have a suggestion: $(cat stderr)"
+expect_status 2 "$host" draw "$here/crossing.toml"
+grep -q "crossing.toml:[0-9:]* this is an experiment, not a scenario" stderr || fail "draw of an experiment says: $(cat stderr)"
+expect_status 2 "$host" validate "$here/../../scenarios/library/scenario.toml"
+grep -q "this is a scenario, not an experiment" stderr || fail "validate of a scenario says: $(cat stderr)"
 for format in experiment scenario; do
   expect_status 0 "$host" keys "$format"
   ! grep '^  ' stdout | grep -v '# [^( ]' || fail "these keys have no meaning (host/layouts/keys.json)"

@@ -18,12 +18,12 @@ from dmrp import plot  # noqa: E402
 
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> dmrp.Run:
-    """Two numbers of people by two ways of tracking, by a controller with a swept parameter and one without."""
+    """No people and four, by two ways of tracking, by a controller with a swept parameter and one without."""
     experiment = dmrp.Experiment(
         name="sweep",
         seed=1,
         trials=2,
-        scenario=[dmrp.use(str(CROSSING), people=[1, 4])],
+        scenario=[dmrp.use(str(CROSSING), people=[0, 4])],
         global_planner=[dmrp.use("dmrp.planner.cbs", label="CBS")],
         local_controller=[
             dmrp.use("dmrp.controller.pure_pursuit", label="PP", sweep={"lookahead_dist": [0.3, 0.6]}),
@@ -75,7 +75,7 @@ def test_a_metric_over_people_has_a_line_for_each_other_combination(sweep: dmrp.
     rows = summary[(summary["local_controller"] == "ORCA") & (summary["simulation.tracking"] == "visible")]
     found = np.array(lines["ORCA, tracking visible"])
     assert np.allclose(found[:, 1:], rows[["mean", "ci_low", "ci_high"]], rtol=1e-12)
-    assert (axes.get_xlabel(), axes.get_ylabel(), labels(axes)) == ("people", "success", ["1", "4"])
+    assert (axes.get_xlabel(), axes.get_ylabel(), labels(axes)) == ("people", "success", ["0", "4"])
     assert {text.get_text() for text in axes.get_legend().get_texts()} == set(lines)
 
 
@@ -83,7 +83,7 @@ def test_points_at_one_place_stand_beside_each_other(sweep: dmrp.Run) -> None:
     lines = drawn(plot.metric(sweep, "success", over="people", axes=plt.figure().gca()))
     for place in (0, 1):
         at = sorted(points[place][0] for points in lines.values())
-        assert min(np.diff(at)) > 0.01 and abs(np.mean(at) - (1, 4)[place]) < 1e-9
+        assert min(np.diff(at)) > 0.01 and abs(np.mean(at) - (0, 4)[place]) < 1e-9
 
 
 def test_a_swept_parameter_and_a_text_are_axes(sweep: dmrp.Run) -> None:

@@ -230,7 +230,7 @@ def _styles(points: pd.DataFrame, color: str | None) -> dict[str, dict[str, str]
 
 def _legend_columns(width: float, lines: Iterable[str]) -> int:
     """As many as have room in `width` inches."""
-    letter, mark = 0.06, 0.6
+    letter, mark = 0.06, 0.45
     return max(1, int(width / (mark + letter * max(map(len, lines)))))
 
 
@@ -278,6 +278,8 @@ def _factors(run: Run, points: pd.DataFrame, over: str) -> pd.DataFrame:
             factors.loc[index, label] = row[label].removesuffix(f" ({', '.join(values)})")
     if _owner(over) != "scenario" and over not in [*swept, *_LABELS]:  # labels of one plugin with other parameters
         factors[_owner(over)] = _with_column(run, points, f"{_owner(over)}.id")[f"{_owner(over)}.id"]
+    if factors["pedestrian_model"].replace("", np.nan).nunique() == 1:  # an empty world is not another crowd
+        factors["pedestrian_model"] = factors["pedestrian_model"].max()
     same = {over, *(column for column in swept if _owner(column) == over)}
     if over == "people":
         same.add("people_times")

@@ -334,6 +334,10 @@ TEST_CASE("the answer says where it depends on the people", "[ranking]") {
   CHECK_THAT(lines_of_first(trials),
              Catch::VectorContains(std::string(
                  "It depends on the people: with blind crowd it is among P + b; with crowd it is among P + a.")));
+  for (std::size_t i = count; i < trials.size(); ++i) trials[i].pedestrian_model.clear();
+  CHECK_THAT(lines_of_first(trials),
+             Catch::VectorContains(std::string(
+                 "It depends on the people: with no people it is among P + b; with crowd it is among P + a.")));
 }
 
 TEST_CASE("a trial that ended in a fault counts as a failure", "[ranking]") {
