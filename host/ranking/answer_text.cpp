@@ -156,7 +156,8 @@ std::string people_line(const Answer& answer) {
   if (std::all_of(all.begin(), all.end(), [&](const auto& one) { return one.best == all.front().best; })) return "";
   std::vector<std::string> words;
   for (const Answer::WithPeople& one : all)
-    words.push_back(fmt::format("with {} it is among {}", one.pedestrian_model.empty() ? "no people" : one.pedestrian_model,
+    words.push_back(fmt::format("with {} it is among {}",
+                                one.pedestrian_model.empty() ? "no people" : one.pedestrian_model,
                                 list_words(one.best)));
   return fmt::format("It depends on the people: {}.", fmt::join(words, "; "));
 }
