@@ -54,7 +54,6 @@ Status Dwa::start(const Start& start) {
   window_.v.reserve(static_cast<std::size_t>(*vx_samples) + 1);
   window_.v_y.reserve(static_cast<std::size_t>(*vy_samples) + 1);
   window_.omega.reserve(static_cast<std::size_t>(*vth_samples) + 1);
-  fronts_.start();
   oscillation_.reset();
   standing_ns_ = 0;
   turn_to_.reset();
@@ -84,19 +83,13 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   sample_window(now);
   const Vec2 robot = toolkit::position(now.pose);
   const dwa::FrontSettings settings = {now.footprint.inscribed_radius_m + footprint_padding,
-                                       max_global_plan_lookahead_dist,
-                                       forward_point_distance,
-                                       enforce_path_inversion,
-                                       return_to_path,
-                                       extend_path,
-                                       lean_into_gaps,
-                                       speed_of(now.velocity) < standing_m_s};
+                                       max_global_plan_lookahead_dist, forward_point_distance, extend_path};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
 
   const bool stalled = is_stalled(now);
-  update_oscillation(now, stalled);
+  oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
   const std::optional<FootprintCheck> room = room_to_leave_for(now, map, stalled && !goal.is_cut);
   const bool follow = !leaves_path(robot, stalled && !goal.is_cut);
   const bool align = to_goal_m > forward_point_distance;
@@ -116,7 +109,6 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
                             use_dwa ? nullptr : &ramp,
                             room ? &*room : nullptr};
   const std::optional<dwa::Sample> choice = dwa::cheapest(window_, scene, tuning_, footprint);
-  if (!choice && brake_in_time && stops_in_time(now, footprint)) return Status::ok;
   if (!choice) {
     set_error("every arc within reach runs into an obstacle");
     return Status::no_solution;
@@ -127,8 +119,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
       command = at_goal_.command(tracker_.stop(), now);
       return Status::ok;
     }
-    // a turn before the gap would only swing to and fro, unless the robot has its nose at what narrows the gap
-    if (turn_to_better_heading && (!goal.leans || stalled)) turn_to_ = better_heading(scene, footprint);
+    if (turn_to_better_heading) turn_to_ = better_heading(scene, footprint);
     if (turn_to_) {
       command = turn(now, *turn_to_, footprint);
       return Status::ok;
@@ -137,22 +128,6 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   oscillation_.record(now.pose, *choice);
   command = approach(now, *choice);
   return Status::ok;
-}
-
-// Whether the robot stops before it hits anything if it brakes now: then braking is admissible as the dynamic window
-// approach defines it, though every arc hits something within sim_time.
-bool Dwa::stops_in_time(const Observation& now, FootprintCheck& footprint) const {
-  const double speed = speed_of(now.velocity);
-  const double duration_s = 0.5 * speed / now.limits.a_max;  // in which it would come as far without braking
-  const int steps = 1 + static_cast<int>(speed * duration_s / sim_granularity);
-  const ArcStepper stepper(now.velocity.v_x, now.velocity.v_y, now.velocity.omega, duration_s / steps);
-  footprint.scale(1.0);
-  DirectedPoint at = directed(now.pose);
-  for (int i = 0; i < steps; ++i) {
-    stepper.step(at);
-    if (footprint.cost(at) == in_collision) return false;
-  }
-  return true;
 }
 
 void Dwa::sample_window(const Observation& now) {
@@ -192,13 +167,6 @@ std::array<dwa::Box, 2> Dwa::reachable_boxes(const Observation& now) const {
           ends.add(robot + v * unit_end.at + v_y * unit_aside + nose_m * unit_end.heading);
   }
   return {near, ends};
-}
-
-// Clears the oscillation history of a robot that has moved on or stalled. For a stalled robot the forbidden direction
-// may be the only way on; upstream, the oscillation recovery of move_base clears it.
-void Dwa::update_oscillation(const Observation& now, bool stalled) {
-  oscillation_.release(now.pose, oscillation_reset_dist, oscillation_reset_angle);
-  if (stalled && release_stalled) oscillation_.reset();
 }
 
 // A footprint with a cell more of padding, while the robot leaves an obstacle: from a stall beside it until it is

@@ -63,17 +63,11 @@ class Dwa final : public PathController {
                                                      .unit("m")
                                                      .range(0.5, 100.0)
                                                      .doc("length of the path considered, inside the window");
-  Param<bool> enforce_path_inversion =
-      param("enforce_path_inversion", false).doc("departure: consider the path only up to where it turns back");
-  Param<bool> return_to_path = param("return_to_path", false)
-                                   .doc("departure: drive straight to a path that lies outside the window; off: stand");
   Param<bool> leave_padding = param("leave_padding", false)
                                   .doc("departure: after standing beside an obstacle for 2 s, drive clear of it first");
   Param<bool> turn_to_better_heading =
       param("turn_to_better_heading", true)
           .doc("departure: if standing still scores best, turn in place to a heading that scores better");
-  Param<bool> release_stalled =
-      param("release_stalled", true).doc("departure: after standing for 2 s, the robot may reverse again");
   Param<bool> leave_path_if_stalled =
       param("leave_path_if_stalled", true)
           .doc(
@@ -81,27 +75,15 @@ class Dwa final : public PathController {
   Param<bool> extend_path =
       param("extend_path", true).doc("departure: the path goes straight on beyond its end, by the nose's length");
 
-  Param<bool> lean_into_gaps = param("lean_into_gaps", false)
-                                   .doc(
-                                       "departure: before a gap that is too narrow, move aside and up to it, so that "
-                                       "there is room once both have");
-
-  Param<bool> brake_in_time = param("brake_in_time", false)
-                                  .doc(
-                                      "departure: if every arc hits within sim_time, but the robot can stop before "
-                                      "that, brake; off: no command");
-
   Status start(const Start& start) override;
 
  private:
   Status control(const Observation& now, Command& command) override;
   Status choose(const Observation& now, const CostmapView& map, FootprintCheck& footprint, Command& command);
-  bool stops_in_time(const Observation& now, FootprintCheck& footprint) const;
   void sample_window(const Observation& now);
   std::array<dwa::Box, 2> reachable_boxes(const Observation& now) const;
   bool is_stalled(const Observation& now);
   bool leaves_path(Vec2 robot, bool stalled);
-  void update_oscillation(const Observation& now, bool stalled);
   std::optional<FootprintCheck> room_to_leave_for(const Observation& now, const CostmapView& map, bool begins);
   std::optional<double> better_heading(const dwa::Scene& scene, FootprintCheck& footprint) const;
   Command turn(const Observation& now, double heading, FootprintCheck& footprint) const;
