@@ -82,19 +82,4 @@ void PathAhead::look_along(const Detour& detour, const PathTracker& tracker, con
   end_m_ = detour.end_m();
 }
 
-bool PathAhead::retreat(FootprintCheck& footprint) {
-  const auto is_free = [&footprint](Vec2 at, double theta) {
-    return footprint.cost(directed(at, theta)) != in_collision;
-  };
-  std::size_t last = points_.size() - 1;
-  while (last > 0 && !is_free(points_[last], goal_.theta)) --last;
-  if (!is_free(points_[last], goal_.theta)) return false;
-  if (last + 1 == points_.size()) return true;
-  points_.resize(last + 1);
-  ends_at_stop_ = has_heading_ = false;
-  const double theta = last > 0 ? direction(points_[last - 1], points_[last], goal_.theta) : goal_.theta;
-  goal_ = {points_[last].x, points_[last].y, theta};
-  return true;
-}
-
 }  // namespace dmrp::controllers

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "controllers/motion/detour.hpp"
-#include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
@@ -22,10 +21,6 @@ class PathAhead {
   // The same along a detour, and along the path from where the detour ends.
   void look_along(const Detour& detour, const PathTracker& tracker, const Observation& now, const CostmapView& map,
                   double look_ahead_m, double window_margin_m = 0.4);
-
-  // If the footprint collides at the goal, moves the goal back to the last point where it does not. False if there is
-  // no such point; the goal stays then.
-  bool retreat(FootprintCheck& footprint);
 
   // Points `spacing_m` apart along the path, from the robot's position on the path to the goal; the last interval may
   // be shorter.

@@ -117,7 +117,7 @@ void ClassPlanner::explore(const Task& task) {
 }
 
 void ClassPlanner::lay_out_band(const Task& task, const std::vector<Vec2>& points) {
-  lay_out(laid_out_.band, task.start, task.goal, points, *task.scene.limits, parameters_, task.scene.preferred_turn);
+  lay_out(laid_out_.band, task.start, task.goal, points, *task.scene.limits, parameters_);
   laid_out_.signature = band_signature(laid_out_.band, marks_);
   laid_out_.is_usable = true;
   laid_out_.is_initial_plan = false;

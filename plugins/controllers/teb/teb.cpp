@@ -21,12 +21,6 @@ constexpr double padding_m = 0.03;
 constexpr double standing_m_s = 0.05;
 constexpr double standing_rad_s = 0.05;
 
-// The robot waits within this distance of the end of its path before an obstacle.
-constexpr double wait_within_m = 0.1;
-
-// The distance between that end and the obstacle.
-constexpr double stand_back_m = 0.3;
-
 // While no band is feasible, a standing robot turns toward the path at this distance ahead, if the angle is larger than
 // the threshold.
 constexpr double face_ahead_m = 0.8;
@@ -34,10 +28,6 @@ constexpr double turn_begin_rad = 0.5;
 
 // Occupied cells within this distance of an agent's disc count as the agent's.
 constexpr double agent_cells_m = 0.2;
-
-// A way around an obstacle keeps so much free if there is one so wide, otherwise the padding; it prefers more.
-constexpr double wide_m = 0.08;
-constexpr double easy_beyond_m = 0.15;
 
 // After this many consecutive cycles without a feasible band, the horizon shrinks less.
 constexpr int shrink_less_after = 10;
@@ -112,7 +102,6 @@ Status Teb::start(const Start& start) {
   clusters_ = &extension<dmrp_obstacle_clusters>();
   begin(start);
   steering_.reset();
-  detour_.clear();
   obstacles_.clear();
   parameters_ = parameters();
   const double periods = parameters_.oscillation_filter_duration / seconds(start.world->control_period_ns);
@@ -122,13 +111,7 @@ Status Teb::start(const Start& start) {
   preferred_turn_ = teb::Turn::any;
   infeasible_in_a_row_ = 0;
   was_infeasible_ = false;
-  is_cut_off_ = false;
   return Status::ok;
-}
-
-void Teb::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-  detour_.clear();
 }
 
 Status Teb::control(const Observation& now, Command& command) {
@@ -170,24 +153,15 @@ void Teb::watch_for_oscillation(const Observation& now) {
 
 Status Teb::drive(const Observation& now, const CostmapView& map, Command& command) {
   FootprintCheck footprint(map, now.footprint, padding_m, now.pose);
-  const bool is_cut = look_along_path(now, map, footprint);
+  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
   obstacles_.gather(now, clusters_->clusters(clusters_, now.robot));
-  // as close as the robot can come to an obstacle on its path: wait
-  const Vec2 goal = toolkit::position(path_.goal());
-  if (is_cut && toolkit::distance(toolkit::position(now.pose), goal) < wait_within_m) {
-    planner_.clear();
-    return wait(now, footprint, command);
-  }
-
-  planner_.plan(task(now, is_cut));
+  planner_.plan(task(now));
   while (planner_.best() && !is_feasible(*planner_.best(), now, footprint)) planner_.drop_best();
   if (planner_.best()) {
     command = first_command(*planner_.best(), parameters_.control_look_ahead_poses, now);
-    if (slow_down(command, now, footprint)) {
-      infeasible_in_a_row_ = 0;
-      annotate(*planner_.best());
-      return Status::ok;
-    }
+    infeasible_in_a_row_ = 0;
+    annotate(*planner_.best());
+    return Status::ok;
   }
   planner_.clear();
   was_infeasible_ = true;
@@ -196,74 +170,7 @@ Status Teb::drive(const Observation& now, const CostmapView& map, Command& comma
   return wait(now, footprint, command);
 }
 
-// Sets path_. If an obstacle is at its end or blocks it, path_ ends before the obstacle, with room to turn and pass it;
-// returns true then.
-bool Teb::look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
-  if (parameters_.take_detour && take_detour(now, map, footprint)) return false;
-  if (!parameters_.end_before_obstacles) return false;
-  const std::size_t whole = path_.points().size();
-  path_.retreat(footprint);
-  const std::size_t free = std::min(path_.points().size(), reachable_points(now, map, footprint));
-  if (free == whole) return false;
-  path_.look(tracker_, now, map, std::max(0.0, PathAhead::spacing_m * static_cast<double>(free - 1) - stand_back_m));
-  return true;
-}
-
-// A robot without a feasible band may have to leave a dead end, while bands lead forward: if an obstacle blocks the path
-// ahead and there is a way to its end, that way counts as the path until it is driven or blocked.
-bool Teb::take_detour(const Observation& now, const CostmapView& map, const FootprintCheck& footprint) {
-  const Vec2 robot = toolkit::position(now.pose);
-  if (detour_.is_kept()) {
-    detour_.update(robot, tracker_.progress_m());
-  } else if (was_infeasible_lately(now.t_ns) && !is_path_free(footprint)) {
-    const Vec2 end = path_.points().back();
-    spread_guide(now, map, wide_m);
-    if (!guide_.reaches(map, end)) spread_guide(now, map, padding_m);
-    if (!guide_.reaches(map, end)) return false;
-    guide_.path_to(map, end, route_);
-    if (route_.size() > 1) detour_.keep(route_, path_.end_m());
-  }
-  if (!detour_.is_kept()) return false;
-  path_.look_along(detour_, tracker_, now, map, parameters_.max_global_plan_lookahead_dist);
-  if (is_path_free(footprint)) return true;
-  for (const double beyond_m : {wide_m, padding_m}) {
-    spread_guide(now, map, beyond_m);
-    if (!detour_.mend(guide_, map)) continue;
-    path_.look_along(detour_, tracker_, now, map, parameters_.max_global_plan_lookahead_dist);
-    return true;
-  }
-  detour_.clear();
-  path_.look(tracker_, now, map, look_ahead_m(now.t_ns));
-  return false;
-}
-
-bool Teb::is_path_free(const FootprintCheck& footprint) const {
-  return std::all_of(path_.points().begin(), path_.points().end(),
-                     [&](Vec2 point) { return footprint.cost(directed(point, path_.goal().theta)) != in_collision; });
-}
-
-void Teb::spread_guide(const Observation& now, const CostmapView& map, double beyond_m) {
-  const double needed_m = now.footprint.inscribed_radius_m + beyond_m;
-  guide_.spread(map, toolkit::position(now.pose), needed_m, needed_m + easy_beyond_m);
-}
-
-// The number of points of the path ahead up to the last one that can be reached. Searches only after a cycle without a
-// feasible band and while the path is cut off. Without this check a robot before a wall across its path would turn back
-// and forth for ever.
-std::size_t Teb::reachable_points(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  const std::vector<Vec2>& points = path_.points();
-  if (!is_cut_off_ && !was_infeasible_lately(now.t_ns)) return points.size();
-  is_cut_off_ = false;
-  if (is_path_free(footprint)) return points.size();
-  spread_guide(now, map, padding_m);
-  std::size_t count = points.size();
-  while (count > 1 && !guide_.reaches(map, points[count - 1])) --count;
-  is_cut_off_ = count < points.size();
-  return count;
-}
-
-teb::Task Teb::task(const Observation& now, bool is_cut) {
+teb::Task Teb::task(const Observation& now) {
   via_points_.clear();
   const std::vector<Vec2>& points = path_.points();
   if (parameters_.global_plan_viapoint_sep > 0.0) {
@@ -279,9 +186,8 @@ teb::Task Teb::task(const Observation& now, bool is_cut) {
   if (path_.has_heading() && points.size() > 1 && !is_car_like(now.limits))
     task.goal.theta = toolkit::bearing(points[points.size() - 2], points.back());
   task.path = &points;
-  task.scene = {&now.limits,    &now.footprint, &obstacles_.all(),
-                &via_points_,   now.velocity,   is_cut || path_.ends_at_stop(),
-                preferred_turn_};
+  task.scene = {&now.limits,  &now.footprint,       &obstacles_.all(), &via_points_,
+                now.velocity, path_.ends_at_stop(), preferred_turn_};
   return task;
 }
 
@@ -312,37 +218,6 @@ bool Teb::is_free(const Pose& pose, double ahead_s, const Observation& now, Foot
                            least_distance(now.footprint, toolkit::position(pose), obstacle, 0.0) < agent_cells_m);
   }
   return is_agents_cell;
-}
-
-// Whether the robot can follow the command for one period and then stop without a collision.
-bool Teb::stops_in_time(const Command& command, const Observation& now, FootprintCheck& footprint) const {
-  const double period_s = seconds(now.dt_ns);
-  DirectedPoint at = directed(now.pose);
-  Twist v = {command.v_x, command.v_y, command.omega};
-  SteeringEstimate steering = steering_;
-  for (double ahead_s = period_s; ahead_s < 10.0; ahead_s += period_s) {
-    if (is_car_like(now.limits)) v.omega = v.v_x * steering.turn_toward(command, now.limits, period_s);
-    ArcStepper(v.v_x, v.v_y, v.omega, period_s).step(at);
-    if (!is_free(pose_of(at), ahead_s, now, footprint)) return false;
-    if (v.v_x == 0.0 && v.v_y == 0.0 && v.omega == 0.0) break;
-    v = braked(v, now.limits, period_s);
-  }
-  return true;
-}
-
-// Lowers the speed until the robot can stop in time. False if not even braking is enough.
-bool Teb::slow_down(Command& command, const Observation& now, FootprintCheck& footprint) const {
-  if (!parameters_.slow_down_to_stop) return true;
-  const Command least = braking(now);
-  const Command wanted = command;
-  for (const double share : {1.0, 0.5, 0.0}) {
-    command.v_x = least.v_x + share * (wanted.v_x - least.v_x);
-    command.v_y = least.v_y + share * (wanted.v_y - least.v_y);
-    if (is_car_like(now.limits) && wanted.v_x != 0.0)
-      command = steered(command.v_x, wanted.omega / wanted.v_x, now.limits);
-    if (stops_in_time(command, now, footprint)) return true;
-  }
-  return false;
 }
 
 // Without a feasible band, a moving robot brakes and reports that there is no solution. A standing robot waits and

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "controllers/motion/drive_ability.hpp"
-#include "controllers/motion/guide.hpp"
+#include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/oscillation_detector.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/path_controller.hpp"
@@ -46,7 +46,6 @@ class Teb final : public teb::DeclaredParameters {
   static Descriptor describe();
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
 
  private:
   Status control(const Observation& now, Command& command) override;
@@ -54,37 +53,26 @@ class Teb final : public teb::DeclaredParameters {
   double look_ahead_m(std::int64_t t_ns) const;
   void watch_for_oscillation(const Observation& now);
   Status drive(const Observation& now, const CostmapView& map, Command& command);
-  bool look_along_path(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  bool take_detour(const Observation& now, const CostmapView& map, const FootprintCheck& footprint);
-  bool is_path_free(const FootprintCheck& footprint) const;
-  void spread_guide(const Observation& now, const CostmapView& map, double beyond_m);
-  std::size_t reachable_points(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  teb::Task task(const Observation& now, bool is_cut);
+  teb::Task task(const Observation& now);
   Status wait(const Observation& now, FootprintCheck& footprint, Command& command);
   bool is_feasible(const teb::TimedElasticBand& band, const Observation& now, FootprintCheck& footprint) const;
   bool is_free(const Pose& pose, double ahead_s, const Observation& now, FootprintCheck& footprint) const;
-  bool stops_in_time(const Command& command, const Observation& now, FootprintCheck& footprint) const;
-  bool slow_down(Command& command, const Observation& now, FootprintCheck& footprint) const;
   void annotate(const teb::TimedElasticBand& best) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
   const dmrp_obstacle_clusters* clusters_ = nullptr;
   PathAhead path_;
-  Detour detour_;
-  Guide guide_;
   SteeringEstimate steering_;
   ObstacleSet obstacles_;
   OscillationDetector oscillation_;
   teb::Parameters parameters_;
   teb::ClassPlanner planner_;
   std::vector<Vec2> via_points_;
-  std::vector<Vec2> route_;  // of the guide
   teb::Turn preferred_turn_ = teb::Turn::any;
   std::int64_t oscillated_ns_ = 0;  // the last time an oscillation was detected
   std::int64_t infeasible_ns_ = 0;  // the last time no band was feasible
   int infeasible_in_a_row_ = 0;
   bool was_infeasible_ = false;  // infeasible_ns_ is set
-  bool is_cut_off_ = false;      // obstacles block every path to the end of the path ahead
 };
 
 }  // namespace dmrp::controllers

@@ -8,11 +8,12 @@
 
 #include "controllers/motion/drive_ability.hpp"
 
+#
+
 namespace dmrp::controllers::teb {
 
 namespace {
 
-// A new band begins with a turn in place if the first leg deviates from the heading by more than this.
 constexpr double turn_first_rad = 0.25 * toolkit::pi;
 
 // The maximum number of poses passed since the last cycle.
@@ -25,25 +26,10 @@ double mean_heading(double from, double to) {
   return toolkit::wrap(from + 0.5 * toolkit::difference(from, to));
 }
 
-void append_turn(TimedElasticBand& band, double heading, const Limits& limits, const Parameters& parameters,
-                 Turn turn) {
-  const Pose from = band.pose(band.size() - 1);
-  double angle = toolkit::difference(from.theta, heading);
-  // turns in the requested direction, even if that is the longer one
-  if (turn == Turn::left && angle < 0.0) angle += 2.0 * toolkit::pi;
-  if (turn == Turn::right && angle > 0.0) angle -= 2.0 * toolkit::pi;
-  if (std::abs(angle) < turn_first_rad) return;
-  const double duration_s = std::abs(angle) / limits.omega_max;
-  const int steps = std::max(1, static_cast<int>(std::lround(duration_s / parameters.dt_ref)));
-  for (int i = 1; i <= steps; ++i) {
-    const double theta = toolkit::wrap(from.theta + angle * i / steps);
-    band.append({from.x, from.y, theta}, duration_s / steps);
-  }
-}
-
-// For a car-like drive, instead of a turn: the tightest arc.
+// A car-like robot that faces more than 45 degrees away from the first leg begins with the tightest arc toward it: no band
+// with a kink that it cannot drive becomes one that it can.
 void append_arc(TimedElasticBand& band, Vec2 to, const Limits& limits) {
-  face_by_arc(band.pose(band.size() - 1), to, 1.0 / sharpest_curvature(limits), turn_first_rad,
+  face_by_arc(band.pose(0), to, 1.0 / sharpest_curvature(limits), turn_first_rad,
               [&](const Pose& pose, double length_m) {
                 band.append({pose.x, pose.y, toolkit::wrap(pose.theta)}, length_m / limits.v_max);
               });
@@ -124,20 +110,15 @@ void TimedElasticBand::remove(std::size_t i) {
 }
 
 void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const std::vector<Vec2>& points,
-             const Limits& limits, const Parameters& parameters, Turn turn) {
+             const Limits& limits, const Parameters& parameters) {
   const double reach_m = limits.v_max * parameters.dt_ref;
   band.begin(start);
-  Vec2 first = toolkit::position(goal);
-  for (const Vec2 point : points) {
-    if (toolkit::distance(toolkit::position(start), point) < reach_m) continue;
-    first = point;
-    break;
+  if (is_car_like(limits)) {
+    const auto far = std::find_if(points.begin(), points.end(), [&](Vec2 point) {
+      return toolkit::distance(toolkit::position(start), point) >= reach_m;
+    });
+    append_arc(band, far == points.end() ? toolkit::position(goal) : *far, limits);
   }
-  if (parameters.begin_with_turn && is_car_like(limits))
-    append_arc(band, first, limits);
-  else if (parameters.begin_with_turn && !is_holonomic(limits) &&
-           toolkit::distance(toolkit::position(start), first) > 1e-6)
-    append_turn(band, toolkit::bearing(start, first), limits, parameters, turn);
   for (const Vec2 point : points) {
     const Vec2 last = band.position(band.size() - 1);
     if (toolkit::distance(last, point) < reach_m) continue;

@@ -44,10 +44,10 @@ class TimedElasticBand {
   std::vector<double> dt;     // s; one fewer
 };
 
-// Creates a band from `start` along the points to `goal` at full speed. A robot that faces away turns in place first,
-// in the direction `turn`. `points` may be empty; the last pose is `goal`.
+// Creates a band from `start` along the points to `goal` at full speed. `points` may be empty; the last
+// pose is `goal`.
 void lay_out(TimedElasticBand& band, const Pose& start, const Pose& goal, const std::vector<Vec2>& points,
-             const Limits& limits, const Parameters& parameters, Turn turn);
+             const Limits& limits, const Parameters& parameters);
 
 // Drops the poses that the robot has passed, then moves the ends to `start` and `goal`.
 void move_ends(TimedElasticBand& band, const Pose& start, const Pose& goal, std::size_t min_samples);

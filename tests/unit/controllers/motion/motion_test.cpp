@@ -407,26 +407,6 @@ TEST_CASE("The path ahead ends at its look-ahead, at the window or at the stop")
   }
 }
 
-TEST_CASE("An occupied goal moves back along the path") {
-  Now now;
-  FakeCostmap costmap(120);
-  costmap.mark(4.0, 3.0);
-  const dmrp_costmap c = costmap.c();
-  const CostmapView map(c);
-  PathTracker tracker;
-  send(tracker, {{1.0, 3.0}, {2.0, 3.0}, {3.0, 3.0}, {4.1, 3.0}});
-  const dmrp::Observation here = now.at(1.0, 3.0);
-  tracker.update(here);
-  PathAhead ahead;
-  ahead.look(tracker, here, map, 10.0);
-  REQUIRE(ahead.ends_at_stop());
-  FootprintCheck footprint(map, disc, 0.0, here.pose);
-  CHECK(ahead.retreat(footprint));
-  CHECK(ahead.goal().x < 3.76);
-  CHECK(ahead.goal().x > 3.6);
-  CHECK_FALSE(ahead.ends_at_stop());
-}
-
 TEST_CASE("Turning back and forth on the spot is detected; driving and turning around are not") {
   const dmrp_limits limits = dmrp::test::differential_limits(0.0, 0.8, 1.0, 1.0, 1.0);
   OscillationDetector detector;
