@@ -5,7 +5,6 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <limits>
 
 #include "controllers/mpc/place_to_wait.hpp"
 
@@ -26,19 +25,11 @@ constexpr double most_infeasible = 0.05;
 // Below this speed the robot counts as standing.
 constexpr double standing_m_s = 0.05;
 
-// A robot without a feasible trajectory to its target for so long plans to the middle of its route, else to a quarter.
-constexpr double patience_s = 2.0;
-constexpr int most_halvings = 2;
-
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
 // A trajectory that ends farther from the goal misses it.
 constexpr double missed_m = 0.1;
-
-// Below both, the states of a trajectory count as waiting at its start.
-constexpr double idle_m = 0.01;
-constexpr double idle_rad = 0.02;
 
 // Initial sizes of buffers.
 constexpr std::size_t usual_obstacles = 256;
@@ -86,14 +77,7 @@ Status Mpc::start(const Start& start) {
   trajectory_.reserve(states);
   trajectory_.clear();
   turn_.reset();
-  stuck_s_ = 0.0;
-  detour_.clear();
   return Status::ok;
-}
-
-void Mpc::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-  detour_.clear();
 }
 
 Status Mpc::control(const Observation& now, Command& command) {
@@ -118,25 +102,18 @@ Status Mpc::control(const Observation& now, Command& command) {
   }
   if (is_standing && turn_.begin_if_slow(route_, now) && turn_.goes_on(now, footprint, command)) return Status::ok;
   pose_problem(now, map, *target);
-  const Cycle cycle = {{now, obstacles, footprint, share_evasion}, map};
-  const auto may_turn = [&] { return turn_if_stuck && !is_car_like(now.limits) && mpc::stands_close(cycle.around); };
-  const std::optional<int> solver_iterations = plan(cycle, *target);
+  const std::optional<int> solver_iterations = plan({{now, obstacles, footprint, share_evasion}, map}, *target);
   if (!solver_iterations) {
     trajectory_.clear();
     if (is_standing) {
-      if (may_turn()) turn_.begin_past_nearest(route_, cycle.around);
+      // beside a wall, where it has made room, a trajectory that still has to turn comes closer to that first
+      if (make_room && !is_car_like(now.limits)) turn_.begin(route_, now);
       return Status::ok;
     }
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
-  if (is_standing && drop_waiting) skip_waiting(cycle.around);
   command = first_command(now);
-  if (brake_in_time) {
-    command = mpc::slow_enough(command, cycle.around, map);
-    if (is_standing && command.v_x == 0.0 && command.v_y == 0.0 && may_turn())
-      turn_.begin_past_nearest(route_, cycle.around);
-  }
   annotate(*solver_iterations);
   return Status::ok;
 }
@@ -186,36 +163,11 @@ void Mpc::look_ahead(const Observation& now, const CostmapView& map, FootprintCh
   }
 }
 
-// If a detour is kept and the path in the window has no free point where the detour ends or beyond, the detour counts
-// as the path ahead.
-void Mpc::look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint) {
-  detour_.update(toolkit::position(now.pose), tracker_.progress_m());
-  const std::vector<Vec2>& points = ahead_.points();
-  std::size_t last = points.size() - 1;
-  while (last > 0 && footprint.cost(directed(points[last], ahead_.goal().theta)) == in_collision) --last;
-  const double short_m = PathAhead::spacing_m * static_cast<double>(points.size() - 1 - last);
-  if (!detour_.leads_beyond(ahead_.end_m() - short_m)) {
-    detour_.clear();
-    return;
-  }
-  const auto is_free = [&](Vec2 point) { return footprint.cost(directed(point, now.pose.theta)) != in_collision; };
-  ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist);
-  if (std::all_of(points.begin(), points.end(), is_free)) return;
-  spread_guide(now, map, points.back());
-  if (detour_.mend(guide_, map)) {
-    ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist);
-  } else {
-    detour_.clear();
-    look_ahead(now, map, footprint);
-  }
-}
-
 // The end of the path ahead; if the path is blocked, its last point that can be reached. Nothing if the robot already
 // stands there. Sets route_.
 std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const CostmapView& map,
                                               FootprintCheck& footprint) {
   look_ahead(now, map, footprint);
-  if (keep_detour) look_along_detour(now, map, footprint);
   const std::vector<Vec2>& points = ahead_.points();
   Target target;
   target.goal = ahead_.goal();
@@ -240,10 +192,8 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   const bool is_cut = last + 1 < points.size();
   const bool makes_room = is_cut && make_room && !is_car_like(now.limits) && !mpc::leads_past(guide_, map, points);
   const Vec2 end = makes_room ? mpc::place_to_wait(guide_, map, points, last) : points[last];
-  if (!guide_.reaches(map, end) || (is_cut && toolkit::distance(toolkit::position(now.pose), end) < wait_within_m)) {
-    detour_.clear();
+  if (!guide_.reaches(map, end) || (is_cut && toolkit::distance(toolkit::position(now.pose), end) < wait_within_m))
     return {};
-  }
   if (is_cut) {
     target.goal.x = end.x;
     target.goal.y = end.y;
@@ -251,10 +201,6 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
     target.fixes_heading = false;
   }
   guide_.path_to(map, end, route_);
-  if (is_cut)
-    detour_.clear();
-  else if (keep_detour && !detour_.is_kept())
-    detour_.keep(route_, ahead_.end_m());
   return target;
 }
 
@@ -303,7 +249,7 @@ void Mpc::pose_problem(const Observation& now, const CostmapView& map, const Tar
     problem_.alpha_max = limits.a_max;
   }
   problem_.dt_min_s = min_dt;
-  problem_.dt_max_s = longest_step_s(now);
+  problem_.dt_max_s = max_dt;
   problem_.min_obstacle_dist_m = min_obstacle_dist;
   problem_.static_share = ease_in_gaps ? share_in_gaps(now, map, toolkit::position(target.goal)) : 1.0;
   problem_.footprint = &now.footprint;
@@ -318,15 +264,6 @@ double Mpc::share_in_gaps(const Observation& now, const CostmapView& map, Vec2 g
   for (const double share : {1.0, 0.5, 0.25, 0.0})
     if (guide_.connects(map, toolkit::position(now.pose), goal, needed_m + share * min_obstacle_dist)) return share;
   return 1.0;
-}
-
-// With a step in which the robot drives farther than its own width, states may stand on both sides of an obstacle and
-// meet all constraints: the solver then prefers few long steps through it to many short ones around it.
-double Mpc::longest_step_s(const Observation& now) const {
-  if (!bound_step_length) return max_dt;
-  const double width_m = 2.0 * now.footprint.inscribed_radius_m;
-  const double fastest_m_s = std::max(now.limits.v_max, -now.limits.v_min);
-  return std::max<double>(min_dt, std::min<double>(max_dt, width_m / fastest_m_s));
 }
 
 mpc::OptimizerSettings Mpc::optimizer_settings() const {
@@ -351,45 +288,24 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
         optimizer_.optimise(settings, barrier_start, cycle.around.obstacles, problem_, trajectory_);
     solver_iterations += report.iterations;
     const bool is_usable = report.infeasibility < most_infeasible || (is_car_like(now.limits) && rolls_out_nearer());
-    return is_usable && is_collision_free(0, cycle.around);
+    return is_usable && mpc::is_collision_free(trajectory_, collision_check_no_poses, cycle.around);
   };
   const auto is_solved_along_route = [&] {
     optimizer_.guess().along(problem_, route_, static_cast<std::size_t>(*grid_size_ref), trajectory_);
     return is_solved(barrier_cold);
   };
 
-  const auto is_solved_to_target = [&] {
-    if (can_continue()) {
-      optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
-      if (is_solved(barrier_warm) && !stands_short(now)) return true;
-    }
-    if (is_solved_along_route()) return true;
-    if (target.is_guided) return false;  // route_ was the guide's already
-    const Vec2 goal = toolkit::position(target.goal);
-    spread_guide(now, cycle.map, goal);
-    if (!guide_.reaches(cycle.map, goal)) return false;
-    guide_.path_to(cycle.map, goal, route_);
-    return is_solved_along_route();
-  };
-
-  const bool reaches_target = is_solved_to_target();
-  stuck_s_ = reaches_target ? 0.0 : stuck_s_ + seconds(now.dt_ns);
-  if (reaches_target) return solver_iterations;
-  for (int halvings = 0; aim_nearer && !is_car_like(now.limits) && stuck_s_ > patience_s && halvings < most_halvings;
-       ++halvings) {
-    halve_route();
-    if (is_solved_along_route()) return solver_iterations;
+  if (can_continue()) {
+    optimizer_.guess().shifted(problem_, seconds(now.dt_ns), trajectory_);
+    if (is_solved(barrier_warm) && !stands_short(now)) return solver_iterations;
   }
-  return {};
-}
-
-// Ends the route, and the problem, at half of its points.
-void Mpc::halve_route() {
-  route_.resize((route_.size() + 1) / 2);
-  problem_.goal.x = route_.back().x;
-  problem_.goal.y = route_.back().y;
-  problem_.ends_at_rest = true;
-  problem_.fixes_heading = false;
+  if (is_solved_along_route()) return solver_iterations;
+  if (target.is_guided) return {};  // route_ was the guide's already
+  const Vec2 goal = toolkit::position(target.goal);
+  spread_guide(now, cycle.map, goal);
+  if (!guide_.reaches(cycle.map, goal)) return {};
+  guide_.path_to(cycle.map, goal, route_);
+  return is_solved_along_route() ? std::optional(solver_iterations) : std::nullopt;
 }
 
 // Beside the corners of an obstacle, the solver may not converge for a long robot. A car-like one, which cannot turn in
@@ -422,27 +338,6 @@ bool Mpc::stands_short(const Observation& now) const {
   const mpc::State& end = trajectory_.states.back();
   return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s &&
          std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > missed_m;
-}
-
-// Of trajectory_ from its state `first` on.
-bool Mpc::is_collision_free(std::size_t first, const mpc::Surroundings& around) const {
-  const std::size_t most_states = collision_check_no_poses < 0 ? std::numeric_limits<std::size_t>::max()
-                                                               : static_cast<std::size_t>(*collision_check_no_poses);
-  return mpc::is_collision_free(trajectory_, first, most_states, around);
-}
-
-// A trajectory may begin with states at rest: all intervals have the same time step, so driving off earlier can cost
-// more before it costs less. Planned anew in every period, the robot would wait for ever. Drops the wait, unless the
-// rest of the trajectory is feasible only after it.
-void Mpc::skip_waiting(const mpc::Surroundings& around) {
-  const mpc::State& start = trajectory_.states.front();
-  std::size_t waits = 0;
-  while (waits + 2 < trajectory_.size()) {
-    const mpc::State& next = trajectory_.states[waits + 1];
-    if (std::hypot(next.x - start.x, next.y - start.y) > idle_m || std::abs(next.theta - start.theta) > idle_rad) break;
-    ++waits;
-  }
-  if (waits > 0 && is_collision_free(waits, around)) trajectory_.drop_front(waits);
 }
 
 void Mpc::annotate(int solver_iterations) const {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "controllers/motion/drive_ability.hpp"
+#include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_ahead.hpp"
 #include "controllers/motion/path_controller.hpp"
@@ -27,35 +28,15 @@ class Mpc final : public PathController {
       param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
-  Param<bool> bound_step_length =
-      param("bound_step_length", true)
-          .doc("departure: no time step in which the robot can drive farther than its own width");
-  Param<bool> turn_if_stuck =
-      param("turn_if_stuck", true)
-          .doc(
-              "departure: a robot that stands close to an obstacle, with no feasible trajectory, turns toward its way");
-  Param<bool> drop_waiting =
-      param("drop_waiting", true)
-          .doc("departure: drops states at rest at the start, unless somebody has to pass first");
-  Param<bool> brake_in_time =
-      param("brake_in_time", true)
-          .doc(
-              "departure: brakes instead of a command after which the robot could not stop before an obstacle at rest");
   Param<bool> share_evasion =
       param("share_evasion", true)
           .doc("departure: a contact with a moving robot counts within the braking time and a second: it evades too");
-  Param<bool> keep_detour =
-      param("keep_detour", true)
-          .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
   Param<bool> ease_in_gaps =
       param("ease_in_gaps", true)
           .doc("departure: a way through a gap too narrow for min_obstacle_dist keeps as much as there is room for");
   Param<bool> make_room =
       param("make_room", true)
           .doc("departure: where its way is cut off, the robot waits on the right and within half of the distance");
-  Param<bool> aim_nearer =
-      param("aim_nearer", true)
-          .doc("departure: a robot that has had no feasible trajectory for 2 s plans to a nearer point of its route");
   Param<double> dt_hyst_ratio = param("dt_hyst_ratio", 0.1)
                                     .unit("1")
                                     .range(0.0, 1.0)
@@ -100,7 +81,6 @@ class Mpc final : public PathController {
                                                     .doc("restarts if the end of the plan turns farther");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
 
  private:
   Status control(const Observation& now, Command& command) override;
@@ -121,20 +101,15 @@ class Mpc final : public PathController {
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
-  void look_along_detour(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool has_room(const Observation& now, const Pose& at) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const CostmapView& map, const Target& target);
   double share_in_gaps(const Observation& now, const CostmapView& map, Vec2 goal);
-  double longest_step_s(const Observation& now) const;
   mpc::OptimizerSettings optimizer_settings() const;
   std::optional<int> plan(const Cycle& cycle, const Target& target);
-  void halve_route();
   bool rolls_out_nearer();
   bool can_continue() const;
   bool stands_short(const Observation& now) const;
-  bool is_collision_free(std::size_t first, const mpc::Surroundings& around) const;
-  void skip_waiting(const mpc::Surroundings& around);
   void annotate(int solver_iterations) const;
 
   const dmrp_local_costmap* costmap_ = nullptr;
@@ -144,8 +119,6 @@ class Mpc final : public PathController {
   SteeringEstimate steering_;
   mpc::Trajectory trajectory_;  // the warm start; empty if there is none
   mpc::TurnInPlace turn_;
-  double stuck_s_ = 0.0;  // so long the robot has had no feasible trajectory to its target
-  Detour detour_;
 
   // buffers, filled anew in every cycle
   PathAhead ahead_;

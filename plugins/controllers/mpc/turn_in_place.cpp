@@ -5,7 +5,6 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <limits>
 
 #include "controllers/motion/drive_ability.hpp"
 #include "controllers/motion/stop_and_rotate.hpp"
@@ -25,20 +24,6 @@ constexpr int turn_check_steps = 5;
 // A holonomic robot turns first where its speed along its way would be below this share of its greatest.
 constexpr double slow_share = 0.5;
 
-// The heading nearest to `way_rad` in which the robot comes no closer to the nearest obstacle at first.
-double heading_past_nearest(double way_rad, const Surroundings& around) {
-  Separation nearest = {std::numeric_limits<double>::infinity(), {}, 0.0};
-  for (const Obstacle& obstacle : around.obstacles) {
-    const Separation here = separation(around.now.footprint, around.now.pose, obstacle, 0.0);
-    if (here.distance_m < nearest.distance_m) nearest = here;
-  }
-  const Vec2 way = toolkit::from_angle(way_rad);
-  const double away = toolkit::dot(way, nearest.gradient);
-  if (away >= 0.0) return way_rad;
-  const Vec2 past = way - away * nearest.gradient;
-  return std::atan2(past.y, past.x);
-}
-
 }  // namespace
 
 void TurnInPlace::begin(const std::vector<Vec2>& route, const Observation& now) {
@@ -46,11 +31,6 @@ void TurnInPlace::begin(const std::vector<Vec2>& route, const Observation& now) 
   const auto beyond = std::find_if(route.begin(), route.end(),
                                    [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
   if (beyond != route.end()) heading_ = toolkit::bearing(robot, *beyond);
-}
-
-void TurnInPlace::begin_past_nearest(const std::vector<Vec2>& route, const Surroundings& around) {
-  begin(route, around.now);
-  if (heading_) heading_ = heading_past_nearest(*heading_, around);
 }
 
 bool TurnInPlace::begin_if_slow(const std::vector<Vec2>& route, const Observation& now) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "controllers/motion/footprint_check.hpp"
-#include "controllers/mpc/feasibility.hpp"
 
 namespace dmrp::controllers::mpc {
 
@@ -14,15 +13,11 @@ class TurnInPlace {
  public:
   void reset() { heading_.reset(); }
 
-  // Toward the way. Beside an obstacle, a trajectory that still has to turn may come a little closer to it; once the
-  // robot faces its way, it drives straight off.
+  // Toward the way.
   void begin(const std::vector<Vec2>& route, const Observation& now);
 
-  // The same, or along the nearest obstacle where the way leads closer to it.
-  void begin_past_nearest(const std::vector<Vec2>& route, const Surroundings& around);
-
-  // For a holonomic robot, which keeps its heading in a trajectory, if it would be slow in the direction of its way,
-  // because it is slower backwards or sideways. Returns whether it turns.
+  // The same for a holonomic robot, which keeps its heading in a trajectory, if it would be slow in the direction of its
+  // way, because it is slower backwards or sideways. Returns whether it turns.
   bool begin_if_slow(const std::vector<Vec2>& route, const Observation& now);
 
   // The command of the turn. False if there is none, or if it ends or is blocked.
