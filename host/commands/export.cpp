@@ -120,12 +120,14 @@ TableSpec spec_of(const ExportOptions& options, const ReportRun& run, const std:
 
 std::string latex(const ExportOptions& options, const ReportRun& run, const ReportLayouts& layouts) {
   const bool own = !options.rows.empty() || !options.columns.empty() || !options.metrics.empty();
-  const std::vector<TableSpec> specs =
+  std::vector<TableSpec> specs =
       own ? std::vector{spec_of(options, run, layouts.report.json)} : layout_tables(layouts.report.json, run.trials);
   std::string text = "% dmrp-host export --latex. Needs \\usepackage{booktabs}.\n";
-  for (const TableSpec& spec : specs)
+  for (TableSpec& spec : specs) {
+    spec.conditions = run.conditions;
     for (const MeanTable& part : latex_parts(make_mean_table(spec, layouts.summary, run.metrics, run.trials)))
       text += latex_table(part) + "\n";
+  }
   return text;
 }
 

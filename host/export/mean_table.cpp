@@ -161,6 +161,7 @@ std::string table_caption(const MeanTable& table) {
     words += " Bold: with 95 % confidence better than all others of its column.";
   if (any_cell([](const TableCell& cell) { return cell.value && cell.defined < cell.trials; }))
     words += " In parentheses: trials in which the value is defined, of all.";
+  if (!table.spec.conditions.empty()) words += fmt::format(" Conditions: {}.", table.spec.conditions);
   return words;
 }
 

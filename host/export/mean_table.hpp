@@ -31,6 +31,7 @@ struct TableSpec {
   std::vector<Label> columns;               // each of their values has all metrics; may be empty
   std::vector<SummaryTableColumn> metrics;  // without those that were not measured
   PeopleCounts people{};                    // for Label::people
+  std::string conditions{};                 // of the run, for the caption
 };
 
 struct TableCell {

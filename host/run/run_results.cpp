@@ -22,6 +22,7 @@
 #include "host/ranking/failure_causes.hpp"
 #include "host/ranking/graded_series.hpp"
 #include "host/report/write_report.hpp"
+#include "host/results/conditions.hpp"
 #include "host/results/manifest.hpp"
 #include "host/results/trials_csv.hpp"
 #include "host/terminal/closing_line.hpp"
@@ -150,9 +151,10 @@ void print_results(const RunResults& results, const SummaryLayout& own_layout, c
     answer = answer_blocks(found.front(), failures, width);
   if (!all_graded) {
     fmt::print("\n{}{}", answer.first, summary_table(layout, results.summarised, results.summaries, marks, style));
-    fmt::print("{}\n", table_legend(layout, results.summarised, results.summaries, met_by_all(results.trials), marks,
-                                    {width, style.ansi}));
+    fmt::print("{}", table_legend(layout, results.summarised, results.summaries, met_by_all(results.trials), marks,
+                                  {width, style.ansi}));
   }
+  fmt::print("{}\n", wrapped_text("conditions: " + conditions_of_run(directory), width, "  "));
   if (const std::string drawn = drawn_tasks_line(scenarios); !drawn.empty())
     fmt::print("{}\n", wrapped_text(drawn, width, "  "));
   fmt::print("{}{}", all_graded ? "\n" : "", graded_table(graded));

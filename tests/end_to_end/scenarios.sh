@@ -40,7 +40,7 @@ use = "dmrp.planner.cbs"
 [[local_controller]]
 use = "dmrp.controller.dwa"
 params_file = "controllers/tuned/dwa.toml"
-params = { enforce_path_inversion = false }
+params = { leave_padding = false }
 [[metric]]
 use = "dmrp.metric.success"
 [[metric]]

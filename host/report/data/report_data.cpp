@@ -108,6 +108,7 @@ Json run_json(const ReportRun& run) {
           {"started", run.manifest.started_at},
           {"command_line", run.manifest.command_line},
           {"effective_toml", run.effective_toml},
+          {"conditions", run.conditions},
           {"manifest", Json::parse(run.manifest_json)}};
 }
 

@@ -4,7 +4,7 @@
 //
 //   format            1
 //   run               name, seed, repetitions, trials_planned, trials_finished, version, started, command_line,
-//                     effective_toml, manifest (the whole file)
+//                     effective_toml, conditions, manifest (the whole file)
 //   scenarios         [{name, robots, title, description, people, time_limit_s}]
 //   metrics           [{name, unit, direction: higher | lower | none, wall_clock, description}]
 //   combinations      [{scenario, robots, global_planner, local_controller, pedestrian_model}]; the index is its id

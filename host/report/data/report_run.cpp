@@ -3,12 +3,13 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/files/read_file.hpp"
+#include "host/results/conditions.hpp"
 #include "host/results/database.hpp"
 
 namespace dmrp::host {
 
 ReportRun read_report_run(const std::filesystem::path& directory, const std::string& event_metric) {
-  for (const char* file : {"results.sqlite", "manifest.json", "effective.toml"})
+  for (const char* file : {"results.sqlite", "manifest.json", "effective.toml", "experiment.toml"})
     if (std::error_code ignored; !std::filesystem::is_regular_file(directory / file, ignored))
       throw InputError(directory.string() + ": is no run directory (no " + file + ")");
   ReportRun run;
@@ -16,6 +17,7 @@ ReportRun read_report_run(const std::filesystem::path& directory, const std::str
   run.manifest = read_manifest(manifest);
   run.manifest_json = read_file(manifest, manifest.string());
   run.effective_toml = read_file(directory / "effective.toml", (directory / "effective.toml").string());
+  run.conditions = conditions_of_run(directory);
   const ResultsDatabase database = ResultsDatabase::open_read_only(directory / "results.sqlite");
   run.metrics = database.metrics();
   run.trials = database.trials_with_events_of(event_metric);

@@ -15,6 +15,7 @@ struct ReportRun {
   Manifest manifest;
   std::string manifest_json;  // the whole file
   std::string effective_toml;
+  std::string conditions;  // in words
   std::vector<MetricColumn> metrics;
   std::vector<TrialRecord> trials;  // by id; an interrupted run lacks some
 };

@@ -23,7 +23,7 @@ export function distinct(values) {
 
 // What numbers of a run are about: the end of a table's caption.
 export function population(data) {
-  return `The trials: ${data.met}.`;
+  return `The trials: ${data.met}. Conditions: ${data.run.conditions}.`;
 }
 
 // A variant is a scenario with a number of robots; combinations are compared within a variant. `combinations`: their
