@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "controllers/motion/guide.hpp"
 #include "controllers/motion/path_controller.hpp"
 #include "controllers/mppi/cost_field.hpp"
 #include "controllers/mppi/critics.hpp"
@@ -55,11 +54,6 @@ class Mppi final : public PathController {
       param("prune_distance", 1.7).unit("m").range(0.1, 20.0).doc("length of the path considered");
   Param<bool> enforce_path_inversion =
       param("enforce_path_inversion", false).doc("consider the path only up to where it turns back");
-  Param<bool> detour = param("detour", false)
-                           .doc("departure: where the path is blocked, follow the shortest way round over the costmap");
-  Param<bool> end_at_hairpins =
-      param("end_at_hairpins", false)
-          .doc("departure: consider the path only up to where it comes back in several corners, too");
   Param<bool> sample_forward =
       param("sample_forward", false).doc("departure: a robot that may not drive backward samples no speeds below zero");
   Param<double> inversion_xy_tolerance = param("inversion_xy_tolerance", 0.2)
@@ -196,8 +190,6 @@ class Mppi final : public PathController {
   void read_limits(const dmrp::Limits& limits);
   void look(const Observation& now);
   void look_at_path(const Observation& now);
-  void take_detour(const Observation& now, const dmrp_costmap& map);
-  void add_path_point(Vec2 from_robot, double heading, bool is_free);
   bool optimize(const Observation& now);
   bool score();
   Command first_command(const Observation& now, int steps) const;
@@ -222,8 +214,6 @@ class Mppi final : public PathController {
   std::vector<Obstacle> moving_;
   mppi::StillCostmap still_costmap_;
   mppi::CostField field_;
-  Guide guide_;
-  std::vector<Vec2> route_;
   mppi::Scene scene_;
   mppi::Batch batch_;
   mppi::Costs costs_;
