@@ -6,7 +6,6 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <string_view>
 
 #include "controllers/motion/unicycle.hpp"
 
@@ -22,16 +21,6 @@ constexpr double standing_m_s = 0.05;
 constexpr double standing_rad_s = 0.05;
 
 constexpr double spacing_m = static_cast<double>(mppi::path_spacing_m);
-
-// A robot is off its path by this distance. Where it has cut a corner, no trajectory is aligned with the corner's path,
-// and standing costs least.
-constexpr float stray_m = 0.2f;
-
-// A path has come back if its direction has turned by more than this, at once or in several corners.
-constexpr double comes_back_rad = 2.0;
-
-// A detour prefers this clearance beyond what the robot needs.
-constexpr double easy_beyond_m = 0.15;
 
 bool is_standing(const Observation& now) {
   return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
@@ -66,31 +55,6 @@ Status Mppi::start(const Start& start) {
   model_.holonomic = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
   model_.deviation = {static_cast<float>(vx_std), static_cast<float>(vy_std), static_cast<float>(wz_std)};
   read_limits(*robot.limits);
-  cost_settings_ = {CostCritic,
-                    static_cast<float>(CostCritic_critical_cost),
-                    CostCritic_near_collision_cost,
-                    static_cast<float>(CostCritic_collision_cost),
-                    static_cast<float>(CostCritic_near_goal_distance),
-                    CostCritic_trajectory_point_step};
-  obstacles_settings_ = {ObstaclesCritic_cost_power,
-                         static_cast<float>(ObstaclesCritic_repulsion_weight),
-                         static_cast<float>(ObstaclesCritic_critical_weight),
-                         static_cast<float>(ObstaclesCritic_collision_cost),
-                         static_cast<float>(ObstaclesCritic_collision_margin_distance),
-                         static_cast<float>(ObstaclesCritic_near_goal_distance)};
-  path_align_settings_ = {PathAlignCritic,
-                          static_cast<float>(PathAlignCritic_max_path_occupancy_ratio),
-                          PathAlignCritic_offset_from_furthest,
-                          PathAlignCritic_trajectory_point_step,
-                          static_cast<float>(PathAlignCritic_threshold_to_consider),
-                          PathAlignCritic_use_path_orientations};
-  path_angle_settings_ = {PathAngleCritic, PathAngleCritic_offset_from_furthest,
-                          static_cast<float>(PathAngleCritic_threshold_to_consider),
-                          static_cast<float>(PathAngleCritic_max_angle_to_furthest),
-                          static_cast<mppi::PathAngleMode>(*PathAngleCritic_mode)};
-  // a robot that may not drive backward has to face its path
-  if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
-    path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
   model_.slowest_m_s = robot.limits->v_min == 0.0 && sample_forward ? 0.0f : mppi::Model{}.slowest_m_s;
   begin(start);
   noise_.start(start.seed, start.robot);
@@ -102,17 +66,15 @@ Status Mppi::start(const Start& start) {
 }
 
 bool Mppi::choose_critics() {
-  static constexpr std::array<std::string_view, critic_count> names = {
-      "ConstraintCritic", "CostCritic",       "ObstaclesCritic", "GoalCritic",          "GoalAngleCritic",
-      "PathAlignCritic",  "PathFollowCritic", "PathAngleCritic", "PreferForwardCritic", "TwirlingCritic"};
-  chosen_ = 0;
+  for (mppi::Critic& critic : all_critics) critic.is_chosen = false;
   for (const std::string& name : *critics) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end()) {
+    const auto at = std::find_if(all_critics.begin(), all_critics.end(),
+                                 [&](const mppi::Critic& critic) { return critic.name == name; });
+    if (at == all_critics.end()) {
       set_error("critics: there is no " + name);
       return false;
     }
-    chosen_ |= 1u << (at - names.begin());
+    at->is_chosen = true;
   }
   return true;
 }
@@ -157,7 +119,6 @@ void Mppi::look(const Observation& now) {
   }
   field_.look(*map, now.footprint, footprint_padding, now.pose, moving_);
   look_at_path(now);
-  if (detour) take_detour(now, *map);
   const StopPoint& stop = tracker_.stop();
   const Vec2 to_goal = stop.position - toolkit::position(now.pose);
   scene_.theta = static_cast<float>(now.pose.theta);
@@ -178,7 +139,6 @@ void Mppi::look_at_path(const Observation& now) {
   const double length_m = std::min<double>(prune_distance, tracker_.remaining_m());
   const auto count = static_cast<int>(std::ceil(length_m / spacing_m));
   double heading = now.pose.theta;
-  double first_heading = heading;
   for (int i = 0; i <= count; ++i) {
     const double ahead_m = std::min(i * spacing_m, length_m);
     const double arc_m = tracker_.progress_m() + ahead_m;
@@ -186,57 +146,13 @@ void Mppi::look_at_path(const Observation& now) {
     if (i > 0 && !field_.contains(point)) break;
     const double next_heading = tracker_.heading_at(arc_m, heading);
     const bool turns_back = std::abs(toolkit::difference(heading, next_heading)) > 0.5 * toolkit::pi;
-    if (i == 0) first_heading = next_heading;
-    const bool comes_back = std::abs(toolkit::difference(first_heading, next_heading)) > comes_back_rad;
-    if ((enforce_path_inversion && turns_back) || (end_at_hairpins && comes_back)) {
-      if (ahead_m > inversion_xy_tolerance) break;
-      first_heading = next_heading;  // the robot is there: what counts is how the path goes on
-    }
+    if (enforce_path_inversion && turns_back && ahead_m > inversion_xy_tolerance) break;
     heading = next_heading;
-    add_path_point(point - robot, heading, !field_.is_blocked(point));
+    scene_.path_x.push_back(static_cast<float>(point.x - robot.x));
+    scene_.path_y.push_back(static_cast<float>(point.y - robot.y));
+    scene_.path_theta.push_back(static_cast<float>(heading));
+    scene_.path_free.push_back(!field_.is_blocked(point));
   }
-}
-
-void Mppi::add_path_point(Vec2 from_robot, double heading, bool is_free) {
-  scene_.path_x.push_back(static_cast<float>(from_robot.x));
-  scene_.path_y.push_back(static_cast<float>(from_robot.y));
-  scene_.path_theta.push_back(static_cast<float>(heading));
-  scene_.path_free.push_back(is_free);
-}
-
-// In nav2, the planner of the whole path begins at the robot and goes round what the costmap shows, once a second. Plans
-// of a fleet do not; so where the path is blocked, or the robot is off it, the way to the farthest point of the path
-// ahead that can be reached is searched here. There may be none.
-void Mppi::take_detour(const Observation& now, const dmrp_costmap& map) {
-  const auto& free = scene_.path_free;
-  const bool strays = std::hypot(scene_.path_x[0], scene_.path_y[0]) > stray_m;
-  if (!strays && std::find(free.begin(), free.end(), 0) == free.end()) return;
-  const CostmapView view(map);
-  const Vec2 robot = toolkit::position(now.pose);
-  const double needed_m = now.footprint.inscribed_radius_m + footprint_padding;
-  guide_.spread(view, robot, needed_m, needed_m + easy_beyond_m);
-  const auto point = [&](std::size_t i) {
-    return robot + Vec2{static_cast<double>(scene_.path_x[i]), static_cast<double>(scene_.path_y[i])};
-  };
-  std::size_t last = scene_.path_x.size();
-  while (last > 0 && !(scene_.path_free[last - 1] && guide_.reaches(view, point(last - 1)))) --last;
-  // nothing that blocks the path lies before a point that can be reached: follow the path
-  const auto end = free.begin() + static_cast<std::ptrdiff_t>(last);
-  if (last == 0 || (!strays && std::find(free.begin(), end, 0) == end)) return;
-  guide_.path_to(view, point(last - 1), route_);
-  scene_.path_x.clear();
-  scene_.path_y.clear();
-  scene_.path_theta.clear();
-  scene_.path_free.clear();
-  double heading = now.pose.theta;
-  for (std::size_t i = 1; i < route_.size(); ++i) {
-    const Vec2 leg = route_[i] - route_[i - 1];
-    if (leg != Vec2{0.0, 0.0}) heading = std::atan2(leg.y, leg.x);
-    const auto pieces = static_cast<int>(std::ceil(toolkit::norm(leg) / spacing_m));
-    for (int k = 0; k < pieces; ++k)
-      add_path_point(route_[i - 1] + (static_cast<double>(k) / pieces) * leg - robot, heading, true);
-  }
-  if (!route_.empty()) add_path_point(route_.back() - robot, heading, true);
 }
 
 bool Mppi::optimize(const Observation& now) {
@@ -258,27 +174,11 @@ bool Mppi::optimize(const Observation& now) {
 
 bool Mppi::score() {
   std::fill(costs_.begin(), costs_.end(), 0.0f);
-  bool any_is_free = true;
   scene_.furthest = mppi::furthest_reached(batch_, scene_);
-  if (has(constraint)) mppi::add_constraint(batch_, model_, ConstraintCritic, costs_);
-  if (has(cost)) any_is_free = mppi::add_cost(batch_, model_, cost_settings_, field_, scene_, costs_);
-  if (has(obstacles))
-    any_is_free = mppi::add_obstacles(batch_, model_, obstacles_settings_, field_, scene_, costs_) && any_is_free;
-  if (has(goal))
-    mppi::add_goal(batch_, GoalCritic, static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
-  if (has(goal_angle))
-    mppi::add_goal_angle(batch_, GoalAngleCritic, static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_,
-                         costs_);
-  if (has(path_align)) mppi::add_path_align(batch_, path_align_settings_, scene_, costs_);
-  if (has(path_follow))
-    mppi::add_path_follow(batch_, PathFollowCritic, PathFollowCritic_offset_from_furthest,
-                          static_cast<float>(PathFollowCritic_threshold_to_consider), scene_, costs_);
-  if (has(path_angle)) mppi::add_path_angle(batch_, path_angle_settings_, scene_, costs_);
-  if (has(prefer_forward))
-    mppi::add_prefer_forward(batch_, model_, PreferForwardCritic,
-                             static_cast<float>(PreferForwardCritic_threshold_to_consider), scene_, costs_);
-  if (has(twirling)) mppi::add_twirling(batch_, TwirlingCritic, scene_, costs_);
-  return any_is_free;
+  mppi::CriticData data = {model_, batch_, scene_, field_, costs_};
+  for (const mppi::Critic& critic : all_critics)
+    if (critic.is_chosen) critic.add(data);
+  return !data.all_collide;
 }
 
 // The velocity at the end of this period, and no faster than the robot can stop at its stop point.

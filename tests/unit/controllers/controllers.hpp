@@ -43,6 +43,11 @@ inline std::vector<Controller> evading_controllers() {
   return evading;
 }
 
+// Those that search no way: only their critics lead them past an obstacle, which takes longer.
+inline bool has_critics_alone(const Controller& controller) {
+  return controller.id == "dmrp.controller.dwa" || controller.id == "dmrp.controller.mppi";
+}
+
 inline Drive run(const Controller& controller, const Course& course) {
   return run(controller.id, course, controller.tuned);
 }

@@ -58,14 +58,6 @@ TEST_CASE("MPPI does not start with a critic that there is not") {
   CHECK(trip.result().breaches == std::vector<std::string>{"start() failed"});
 }
 
-TEST_CASE("MPPI goes round a person on its path by a detour; nav2's own formula stands before it") {
-  Course course = straight();
-  course.walkers = {standing({4.0, 0.0})};
-  course.time_limit_s = 40.0;
-  CHECK(run(mppi, course, tuned_parameters(mppi)).arrived);
-  CHECK_FALSE(run(mppi, course, tuned_with({{"detour", false}, {"sample_forward", false}})).arrived);
-}
-
 TEST_CASE("MPPI drives on from a corner that it has cut") {
   // nearer to the leg before the corner than to the one after it
   Course course;
@@ -73,24 +65,6 @@ TEST_CASE("MPPI drives on from a corner that it has cut") {
   course.start = {0.2, 0.1, 2.7};
   course.time_limit_s = 40.0;
   CHECK(run(mppi, course, tuned_parameters(mppi)).arrived);
-}
-
-// In a hairpin a metre wide, the farthest point of the path that trajectories reach is beyond both corners: the path's
-// follow critic draws the robot across, the align critic along, and it stands between them.
-TEST_CASE("MPPI drives round a hairpin, if it considers the path only up to where that comes back") {
-  int arrived = 0;
-  int arrived_before = 0;
-  dmrp::toolkit::Stream random(29, "starts");
-  for (int i = 0; i < starts; ++i) {
-    Course course;
-    course.path = metre_path({{0.0, 0.0}, {0.0, -3.0}, {2.0, -3.0}, {2.0, -4.0}, {-2.0, -4.0}});
-    course.start = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), -1.57 + random.uniform(-0.2, 0.2)};
-    course.time_limit_s = 40.0;
-    arrived += run(mppi, course, tuned_parameters(mppi)).arrived;
-    arrived_before += run(mppi, course, tuned_with({{"end_at_hairpins", false}, {"sample_forward", false}})).arrived;
-  }
-  CHECK(arrived == starts);
-  CHECK(arrived_before < starts);
 }
 
 // Within the tolerance of that point, the path goes on; its direction before the point no longer counts. (With
