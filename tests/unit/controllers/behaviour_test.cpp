@@ -150,9 +150,6 @@ TEST_CASE("An unplanned obstacle on the path, with room beside it") {
   // the 2 m of path that DWA looks at end in the obstacle: past it, DWA needs a local route
   if (controller.id == "dmrp.controller.dwa") return;
   CAPTURE(controller);
-  // the 2 m of path that DWA looks at end in the obstacle: past it, DWA needs a local route
-  if (controller.id == "dmrp.controller.dwa") return;
-  CAPTURE(controller);
   check_arrives(run(controller, course), has_critics_alone(controller) ? 30.0 : 22.0);
 }
 
