@@ -10,7 +10,10 @@ sets=$2/plugins/controllers/parameter_sets
   $2 == "id" { id = $4; sub(/.*\./, "", id) }
   $2 == "key" { key = $4 }
   $2 == "doc" && $4 ~ /^departure: / { print id, key }' | sort >"$scratch/departures"
-(($(wc -l <"$scratch/departures") >= 20)) || fail "departures: $(<"$scratch/departures")"
+(($(wc -l <"$scratch/departures") >= 10)) || fail "departures: $(<"$scratch/departures")"
+# more need a row of docs/measured/ablation.md as reason
+patched=$(cut -d' ' -f1 "$scratch/departures" | uniq -c | awk '$1 > 6 { print $2 }')
+[[ -z $patched ]] || fail "more than six departures: $patched"
 
 for file in "$sets"/upstream/*.toml; do
   sed -n "s/^\([a-z_]*\) *= \(false\|0\.0\)$/$(basename "$file" .toml) \1/p" "$file"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The search refuses test seeds, repeats itself, and goes on where it was interrupted; the ablation has a row for each
-# departure. Called as tune_test.sh DMRP_HOST.
+# The search refuses test seeds, repeats itself, and goes on where it was interrupted. Called as tune_test.sh DMRP_HOST.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 host=$1
@@ -25,8 +24,3 @@ mkdir "$scratch/two" && head -4 "$scratch/one/search.csv" >"$scratch/two/search.
 "$here/tune.sh" "$host" dwa "$scratch/two" 2 1 41 >"$scratch/again"
 cmp "$scratch/one/search.csv" "$scratch/two/search.csv" || fail "the search differs"
 cmp "$scratch/said" "$scratch/again" || fail "the result differs"
-
-"$here/ablation.sh" "$host" e3mop "$scratch/ablation" 1 >"$scratch/table"
-for row in '| tuned | [01]\.[0-9]*' '| without `prediction_time` | [01]\.[0-9]*' '| upstream | [01]\.[0-9]*'; do
-  grep -q "^$row" "$scratch/table" || fail "no row $row: $(<"$scratch/table")"
-done
