@@ -92,10 +92,23 @@ class ReplayContacts {
   std::map<Pair, std::size_t> latest_;  // index of the pair's last event
 };
 
+// The local routes of one robot: each as far as it was led around something when it was handed over.
+class LedRoutes {
+ public:
+  // `route`: what the robot was handed in the sample. Nothing is kept of paths as planned, but that they end a route.
+  void add(std::size_t sample, const dmrp_path& route, bool is_led);
+  nlohmann::json json() && { return std::move(routes_); }
+
+ private:
+  nlohmann::json routes_ = nlohmann::json::array();
+  bool follows_one_ = false;
+};
+
 // The tracks and contacts, from the samples.
 struct Tracks {
   std::vector<std::int64_t> times_ms;
   std::vector<RobotTrack> robots;
+  std::vector<LedRoutes> routes;  // by robot
   PeopleTracks people;
   Runs plan;
   ReplayContacts contacts;
@@ -210,6 +223,21 @@ nlohmann::json PeopleTracks::json() && {
   return list;
 }
 
+void LedRoutes::add(std::size_t sample, const dmrp_path& route, bool is_led) {
+  if (!is_led && !follows_one_) return;
+  follows_one_ = is_led;
+  nlohmann::json& one = routes_.emplace_back(nlohmann::json{{"from", sample}});
+  if (!is_led) return;
+  Deltas x, y;
+  for (std::uint32_t i = 0; i < route.count; ++i) {
+    const dmrp_vec2 at = waypoint(route, i);
+    x.add(thousandths(at.x));
+    y.add(thousandths(at.y));
+  }
+  one["x"] = std::move(x).json();
+  one["y"] = std::move(y).json();
+}
+
 void ReplayContacts::observe(const dmrp_sample& sample) {
   for (std::uint32_t i = 0; i < sample.contact_count; ++i) {
     const dmrp_contact& contact = sample.contacts[i];
@@ -241,6 +269,17 @@ void keep_sample(Tracks& to, const dmrp_sample& sample, const std::deque<core::T
   to.plan.add(index, index_of(sample.plan, plans));
 }
 
+void keep_routes(Tracks& to, const dmrp_sample& sample) {
+  for (std::uint32_t i = 0; i < sample.route_count; ++i) {
+    const dmrp_route& route = sample.routes[i];
+    const std::span events(sample.events, sample.event_count);
+    const bool is_led = std::any_of(events.begin(), events.end(), [&](const dmrp_robot_event& event) {
+      return event.robot == route.robot && event.kind == DMRP_ROBOT_EVENT_ROUTE;
+    });
+    to.routes[route.robot].add(to.times_ms.size(), *route.path, is_led);
+  }
+}
+
 // Without a plan there are no samples: one sample with the robots at their starts.
 void keep_start(Tracks& to, const dmrp_world& world) {
   to.times_ms.push_back(0);
@@ -257,12 +296,14 @@ void keep_start(Tracks& to, const dmrp_world& world) {
 Tracks follow(core::TraceReader& trace) {
   Tracks tracks;
   tracks.robots.resize(trace.world().robot_count);
+  tracks.routes.resize(trace.world().robot_count);
   trace.rewind();
   if (trace.sample_count() == 0) keep_start(tracks, trace.world());
   std::int64_t next_ns = 0;
   for (std::size_t left = trace.sample_count(); left > 0; --left) {
     const dmrp_sample& sample = *trace.next_sample();
     tracks.contacts.observe(sample);
+    keep_routes(tracks, sample);
     if (sample.t_ns < next_ns && left > 1) continue;
     keep_sample(tracks, sample, trace.plans());
     next_ns = (sample.t_ns / replay_period_ns + 1) * replay_period_ns;
@@ -338,6 +379,7 @@ std::string replay_json(core::TraceReader& trace, const TrialRecord& trial) {
   for (std::uint32_t i = 0; i < world.robot_count; ++i) {
     json& robot = robots.emplace_back(replay_robot(world.robots[i]));
     std::move(tracks.robots[i]).write_to(robot);
+    if (json routes = std::move(tracks.routes[i]).json(); !routes.empty()) robot["routes"] = std::move(routes);
     if (json scans = replay_scans(trace.scans(), i, tracks.times_ms); !scans.is_null())
       robot["scans"] = std::move(scans);
     if (const dmrp_trial_end* end = trace.end()) write_end_of_robot(robot, end->robots[i], trial, i);

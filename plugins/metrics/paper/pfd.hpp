@@ -34,7 +34,7 @@ struct PathDeviation {
 };
 
 struct PathDeviations {
-  PathDeviation in_force, initial;
+  PathDeviation in_force, initial, handed;
 };
 
 class Pfd final : public ActiveTimeMetric<PathDeviations> {
@@ -54,12 +54,28 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
                "standard deviation (normalised by n) of the same distances; undefined if planning failed",
                never_negative)
         .value("pfd_initial", "m", lower_is_better, system_and_robots,
-               "pfd relative to the first plan; undefined if planning failed", never_negative);
+               "pfd relative to the first plan; undefined if planning failed", never_negative)
+        .value(
+            "pfd_route", "m", lower_is_better, system_and_robots,
+            "pfd relative to what the controller was handed to follow: the plan's stretch, or the local route around "
+            "what stands on it; undefined if it was handed nothing",
+            never_negative)
+        .channels(DMRP_CHANNEL_ROUTES);
   }
 
   void begin(const MetricTrial& trial) override {
     ActiveTimeMetric::begin(trial);
     first_plan_ = trial.plan;
+    handed_.assign(states_.size(), {});
+  }
+
+  void observe(const Sample& sample) override {
+    ActiveTimeMetric::observe(sample);  // the step that ends here was driven along what was handed before
+    for (const Route& route : sample.routes) {
+      std::vector<Vec2>& handed = handed_[route.robot];
+      handed.clear();
+      for (std::uint32_t i = 0; i < route.path->count; ++i) handed.push_back(toolkit::position(Path(*route.path)[i]));
+    }
   }
 
   void finish(const TrialEnd&, MetricSink& sink) override {
@@ -68,14 +84,19 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
                    [](const PathDeviations& own) { return own.in_force.greatest_m; });
     give_mean(sink, "pfd_sd", [](const PathDeviations& own) { return own.in_force.standard_deviation_m(); });
     give_mean(sink, "pfd_initial", [](const PathDeviations& own) { return own.initial.mean_m(); });
+    give_mean(sink, "pfd_route", [](const PathDeviations& own) { return own.handed.mean_m(); });
   }
 
  private:
+  static Vec2 place_of(Vec2 point) { return point; }
+  static Vec2 place_of(const Waypoint& waypoint) { return toolkit::position(waypoint); }
+
   // From a point to the closest point of a non-empty path; waits are segments of length zero.
-  static double distance_to(const Path& path, Vec2 point) {
-    double nearest = toolkit::squared_distance(toolkit::position(path[0]), point);
+  template <class Points>
+  static double distance_to(const Points& path, Vec2 point) {
+    double nearest = toolkit::squared_distance(place_of(path[0]), point);
     for (std::size_t i = 1; i < path.size(); ++i) {
-      const Segment segment = {toolkit::position(path[i - 1]), toolkit::position(path[i])};
+      const Segment segment = {place_of(path[i - 1]), place_of(path[i])};
       nearest = std::min(nearest, toolkit::squared_distance(segment, point));
     }
     return std::sqrt(nearest);
@@ -86,9 +107,11 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
     const Vec2 position = toolkit::position(sample.robots[robot].pose);
     if (sample.plan) own.in_force.add(distance_to(sample.plan.path(robot), position));
     if (first_plan_) own.initial.add(distance_to(first_plan_.path(robot), position));
+    if (!handed_[robot].empty()) own.handed.add(distance_to(handed_[robot], position));
   }
 
   Plan first_plan_;
+  std::vector<std::vector<Vec2>> handed_;  // by robot: what its controller follows
 };
 
 }  // namespace dmrp::metrics

@@ -259,6 +259,16 @@ class SyntheticTrial {
   }
 
   // Of the control tick of the sample, which was at the one before.
+  // What the controller of a robot was handed to follow at the last sample.
+  SyntheticTrial& handed(std::uint32_t robot, const Points& points) {
+    StoredSample& sample = samples_.back();
+    std::vector<dmrp_waypoint>& path = paths_handed_.emplace_back();
+    for (const dmrp_vec2 point : points) path.push_back(waypoint(point.x, point.y, 0.0));
+    sample.paths.push_back(
+        {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
+    sample.routes.push_back({{robot, 0, &sample.paths.back()}});
+    return *this;
+  }
   SyntheticTrial& events(const std::vector<dmrp_robot_event>& events) {
     samples_.back().events = longer(events);
     const std::int64_t tick_ns = samples_.back().c.t_ns - samples_.back().c.dt_ns;
@@ -335,6 +345,9 @@ class SyntheticTrial {
       c.call_stride = sizeof(Longer<dmrp_call>);
       c.events = stored.events.empty() ? nullptr : &stored.events.front().element;
       c.event_count = static_cast<std::uint32_t>(stored.events.size());
+      c.routes = stored.routes.empty() ? nullptr : &stored.routes.front().element;
+      c.route_count = static_cast<std::uint32_t>(stored.routes.size());
+      c.route_stride = sizeof(Longer<dmrp_route>);
       c.event_stride = sizeof(Longer<dmrp_robot_event>);
       c.route_stride = sizeof(dmrp_route);
       use(c);
@@ -365,6 +378,8 @@ class SyntheticTrial {
     std::vector<Longer<dmrp_person>> people;
     std::vector<Longer<dmrp_call>> calls;
     std::vector<Longer<dmrp_robot_event>> events;
+    std::deque<dmrp_path> paths;
+    std::vector<Longer<dmrp_route>> routes;
   };
 
   // addresses stay when the trial is moved
@@ -376,6 +391,7 @@ class SyntheticTrial {
   std::unique_ptr<dmrp_grid> planning_grid_ =
       std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
+  std::deque<std::vector<dmrp_waypoint>> paths_handed_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
   std::vector<float> clearance_;
   std::vector<std::uint8_t> free_, edges_;  // of the planning grid

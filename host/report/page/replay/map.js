@@ -135,6 +135,15 @@ function draw_plan(context, view, path, colour, strong) {
   context.globalAlpha = 1;
 }
 
+function draw_route(context, view, route, colour) {
+  trace_line(context, view, route.x, route.y, 0, route.x.length);
+  context.strokeStyle = colour;
+  context.lineWidth = 1.25;
+  context.globalAlpha = 0.8;
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
 function draw_planned_position(context, view, path, t, colour) {
   const position = recording.planned_position(path, t);
   if (!position) return;
@@ -325,6 +334,8 @@ function draw_moving(context, view, scene) {
         strong
       );
     if (layers.plans && path && (few || strong)) draw_plan(context, view, path, colour(robot), strong);
+    const route = recording.current_route(robot, at);
+    if (layers.plans && route && (few || strong)) draw_route(context, view, route, colour(robot));
     if (scene.whole_trails) draw_all_of_trail(context, view, robot, colour(robot));
     else if (layers.trails)
       draw_trail(context, view, robot, poses[robot.index], at, colour(robot), strong, few || strong);

@@ -76,6 +76,7 @@ function robot(packed, index, count) {
     speed: deltas(packed.speed),
     deviation: deltas(packed.deviation).map((value) => (value < 0 ? NaN : value)),
     scans: scans(packed.scans, count),
+    routes: (packed.routes || []).map(({from, x, y}) => ({from, x: deltas(x || []), y: deltas(y || [])})),
     failure: packed.failure || '',
     culprit: packed.culprit ?? null,
     arrival: packed.arrival === undefined ? null : packed.arrival / 1000,
@@ -221,6 +222,12 @@ export function person_pose(one, at) {
 export function current_path(replay, index, at) {
   const plan = replay.plans[replay.plan[at.k]];
   return plan ? plan.paths[index] : null;
+}
+
+// The local route that the robot was handed last; null while it follows its plan.
+export function current_route(robot, at) {
+  const route = robot.routes.findLast(({from}) => from <= at.k);
+  return route && route.x.length > 0 && robot.state[at.k] === ACTIVE ? route : null;
 }
 
 // The planned position at time t.

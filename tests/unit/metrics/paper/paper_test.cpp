@@ -334,4 +334,18 @@ TEST_CASE("PFD uses the current plan, its second value the first plan") {
   CHECK_THAT(m.system("pfd_initial"), WithinAbs(1.6 / 3.0, 1e-15));  // (0.5 + 0.5 + 0.6) / 3
 }
 
+TEST_CASE("PFD along the route is measured from what the controller was handed last") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}, {4, 0}}, {{0, 9}, {4, 9}}});
+  trial.sample(0.0, {at(0, 0), at(0, 9)}).handed(0, {{0, 0}, {4, 0}});
+  trial.sample(0.1, {at(1, 0.5), at(0, 9)}).handed(0, {{1, 0.5}, {2, 1}, {4, 1}});  // led around something
+  trial.sample(0.2, {at(2, 1), at(0, 9)});
+  trial.sample(0.3, {at(3, 1.25), at(0, 9)});
+  trial.end(0.3);
+  const Measurement m = measure("dmrp.metric.pfd", trial);
+  CHECK_THAT(m.robot("pfd_route", 0), WithinAbs(0.25, 1e-15));  // (0.5 + 0 + 0.25) / 3
+  CHECK_THAT(m.robot("pfd", 0), WithinAbs((0.5 + 1 + 1.25) / 3, 1e-15));
+  CHECK(std::isnan(m.robot("pfd_route", 1)));
+}
+
 }  // namespace paper_test

@@ -85,6 +85,32 @@ TEST_CASE("a replay has the current plan, the states, and the curves up to the e
   CHECK(replay["end"]["reason"] == "time limit");
 }
 
+TEST_CASE("a replay has the routes that a robot was led around something, until it follows its plan again",
+          "[report]") {
+  const dmrp::test::ExampleWorld example;
+  const dmrp::test::ExamplePlan plan(1);
+  core::TraceBytes bytes;
+  core::TraceEncoder trace(example.world, [&](std::int64_t, std::span<const std::uint8_t> record) {
+    bytes.insert(bytes.end(), record.begin(), record.end());
+  });
+  trace.plan(plan.plan, 0);
+  for (std::int64_t k = 0; k < 20; ++k) {
+    dmrp::test::ExampleSample step(k, &plan.plan);
+    step.routes[0].flags = 0;
+    step.sample.route_count = k % 5 == 0 ? 1 : 0;
+    dmrp_robot_event led = {DMRP_ROBOT_EVENT_ROUTE, 0, k * 20'000'000, 0, DMRP_NOBODY};
+    step.sample.events = &led;
+    step.sample.event_count = k == 5 ? 1 : 0;
+    trace.sample(step.sample);
+  }
+  const json routes = replay_of(bytes)["robots"][0]["routes"];
+  REQUIRE(routes.size() == 2);
+  CHECK(routes[0]["from"] == 1);  // 100 ms
+  CHECK(summed(routes[0]["x"]) == std::vector<std::int64_t>{0, 100, 200, 300, 400, 500, 600});
+  CHECK(routes[1] == json{{"from", 2}});
+  CHECK_FALSE(replay_of(bytes)["robots"][1].contains("routes"));
+}
+
 TEST_CASE("a robot failed by what the results say, not by its class at the end", "[report]") {
   TrialRecord trial;
   trial.events.resize(2);
