@@ -129,21 +129,6 @@ bool Guide::reaches(const CostmapView& map, Vec2 point) const {
          efforts_[static_cast<std::size_t>(index)] != escape_effort;
 }
 
-std::optional<Vec2> Guide::nearest_reached(const CostmapView& map, Vec2 point, double within_m) const {
-  const auto reach = static_cast<std::int32_t>(within_m / map.resolution_m());
-  std::optional<Vec2> nearest;
-  double nearest_m = within_m;
-  for (std::int32_t row = -reach; row <= reach; ++row) {
-    for (std::int32_t column = -reach; column <= reach; ++column) {
-      const Vec2 at = point + map.resolution_m() * Vec2{static_cast<double>(column), static_cast<double>(row)};
-      if (toolkit::distance(at, point) >= nearest_m || !reaches(map, at)) continue;
-      nearest = map.center(map.column_of(at.x), map.row_of(at.y));
-      nearest_m = toolkit::distance(at, point);
-    }
-  }
-  return nearest;
-}
-
 void Guide::path_to(const CostmapView& map, Vec2 point, std::vector<Vec2>& points) const {
   assert(reaches(map, point));
   points.clear();

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "controllers/motion/costmap_view.hpp"
@@ -31,9 +30,6 @@ class Guide {
 
   // Whether the search reached a point. After spread(), on the same map.
   bool reaches(const CostmapView& map, Vec2 point) const;
-
-  // The centre of the cell nearest to a point, of those that the search reached within `within_m` of it.
-  std::optional<Vec2> nearest_reached(const CostmapView& map, Vec2 point, double within_m) const;
 
   // Points of the path from the robot to a point where reaches() holds, some decimetres apart.
   void path_to(const CostmapView& map, Vec2 point, std::vector<Vec2>& points) const;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "controllers/motion/detour.hpp"
+#include "controllers/motion/costmap_view.hpp"
 #include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
@@ -18,17 +18,10 @@ class PathAhead {
   void look(const PathTracker& tracker, const Observation& now, const CostmapView& map, double look_ahead_m,
             double window_margin_m = 0.4);
 
-  // The same along a detour, and along the path from where the detour ends.
-  void look_along(const Detour& detour, const PathTracker& tracker, const Observation& now, const CostmapView& map,
-                  double look_ahead_m, double window_margin_m = 0.4);
-
   // Points `spacing_m` apart along the path, from the robot's position on the path to the goal; the last interval may
   // be shorter.
   static constexpr double spacing_m = 0.1;
   const std::vector<Vec2>& points() const { return points_; }
-
-  // The arc length of the path at the last point; after look_along(), where the detour ends.
-  double end_m() const { return end_m_; }
 
   // The last point, with the stop point's heading if has_heading(), otherwise the path's direction there.
   const Pose& goal() const { return goal_; }
@@ -38,7 +31,6 @@ class PathAhead {
  private:
   std::vector<Vec2> points_;
   Pose goal_ = {0.0, 0.0, 0.0};
-  double end_m_ = 0.0;
   bool ends_at_stop_ = false;
   bool has_heading_ = false;
 };

@@ -74,7 +74,7 @@ class Pfd final : public ActiveTimeMetric<PathDeviations> {
     for (const Route& route : sample.routes) {
       std::vector<Vec2>& handed = handed_[route.robot];
       handed.clear();
-      for (std::uint32_t i = 0; i < route.path->count; ++i) handed.push_back(toolkit::position(Path(*route.path)[i]));
+      for (const Waypoint& waypoint : route.path()) handed.push_back(toolkit::position(waypoint));
     }
   }
 

@@ -258,17 +258,17 @@ class SyntheticTrial {
     return *this;
   }
 
-  // Of the control tick of the sample, which was at the one before.
   // What the controller of a robot was handed to follow at the last sample.
   SyntheticTrial& handed(std::uint32_t robot, const Points& points) {
-    StoredSample& sample = samples_.back();
-    std::vector<dmrp_waypoint>& path = paths_handed_.emplace_back();
-    for (const dmrp_vec2 point : points) path.push_back(waypoint(point.x, point.y, 0.0));
-    sample.paths.push_back(
-        {sizeof(dmrp_path), static_cast<std::uint32_t>(path.size()), sizeof(dmrp_waypoint), 0, path.data()});
-    sample.routes.push_back({{robot, 0, &sample.paths.back()}});
+    std::vector<dmrp_waypoint>& course = courses_.emplace_back();
+    for (const dmrp_vec2 point : points) course.push_back(waypoint(point.x, point.y, 0.0));
+    paths_.push_back(
+        {sizeof(dmrp_path), static_cast<std::uint32_t>(course.size()), sizeof(dmrp_waypoint), 0, course.data()});
+    samples_.back().routes.push_back({{robot, 0, &paths_.back()}});
     return *this;
   }
+
+  // Of the control tick of the sample, which was at the one before.
   SyntheticTrial& events(const std::vector<dmrp_robot_event>& events) {
     samples_.back().events = longer(events);
     const std::int64_t tick_ns = samples_.back().c.t_ns - samples_.back().c.dt_ns;
@@ -349,7 +349,6 @@ class SyntheticTrial {
       c.route_count = static_cast<std::uint32_t>(stored.routes.size());
       c.route_stride = sizeof(Longer<dmrp_route>);
       c.event_stride = sizeof(Longer<dmrp_robot_event>);
-      c.route_stride = sizeof(dmrp_route);
       use(c);
     }
   }
@@ -378,7 +377,6 @@ class SyntheticTrial {
     std::vector<Longer<dmrp_person>> people;
     std::vector<Longer<dmrp_call>> calls;
     std::vector<Longer<dmrp_robot_event>> events;
-    std::deque<dmrp_path> paths;
     std::vector<Longer<dmrp_route>> routes;
   };
 
@@ -391,7 +389,8 @@ class SyntheticTrial {
   std::unique_ptr<dmrp_grid> planning_grid_ =
       std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
-  std::deque<std::vector<dmrp_waypoint>> paths_handed_;
+  std::deque<std::vector<dmrp_waypoint>> courses_;  // that controllers were handed
+  std::deque<dmrp_path> paths_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
   std::vector<float> clearance_;
   std::vector<std::uint8_t> free_, edges_;  // of the planning grid
