@@ -11,6 +11,7 @@
 #include "controllers/e3mop/way_out.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_paths.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
+#include "tests/unit/controllers/fake_costmap.hpp"
 
 namespace e3mop_test {
 
@@ -83,6 +84,26 @@ TEST_CASE("Whether a point is free depends on its own distance, not on that of i
     const dmrp_vec2 at = {0.51, y};
     CHECK(space.can_stand(at) == (wall.field.at(at).distance_m >= space.needed_m()));
   }
+}
+
+TEST_CASE("A long robot can stand where it fits at one heading alone") {
+  // between two walls 0.8 m apart, which the robot is too long to face
+  const std::vector<dmrp_vec2> corners = {{-0.45, -0.15}, {0.45, -0.15}, {0.45, 0.15}, {-0.45, 0.15}};
+  const std::vector<dmrp_polygon> parts = {dmrp::test::polygon_of(corners)};
+  const dmrp_footprint c_footprint = dmrp::test::polygon_footprint(parts, 0.475, 0.15);
+  const dmrp::Footprint footprint(c_footprint);
+  dmrp::test::FakeCostmap fake(80);
+  for (double y = 0.025; y < 4.0; y += 0.05) fake.mark(1.575, y), fake.mark(2.425, y);
+  const dmrp_costmap map = fake.c();
+  const dmrp_pose robot = {2.0, 2.0, 0.5 * pi};
+  const Window walls(robot, [](dmrp_vec2 point) { return std::abs(point.x - 2.0) > 0.4; });
+  const FootprintCheck outline(CostmapView(map), footprint, 0.0, robot);
+  const FreeSpace space(walls.field, footprint, 0.0, robot, &outline);
+  const dmrp_vec2 at = {2.0, 2.3};
+  CHECK_FALSE(space.is_free(directed(at, 0.0)));
+  CHECK(space.is_free(directed(at, 0.5 * pi)));
+  CHECK(space.can_stand(at));
+  CHECK_FALSE(space.can_stand({2.35, 2.3}));
 }
 
 TEST_CASE("A path that ends too close to an obstacle leads to its last point where the robot can stand") {

@@ -2,6 +2,7 @@
 // The critics of MPPI on trajectories whose costs are computed by hand.
 #include "controllers/mppi/critics.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
@@ -69,7 +70,8 @@ Scored score(const std::string& name, const std::map<std::string, double>& param
   ParameterTable table;
   const std::vector<Critic> critics = all_critics(table);
   for (const auto& [key, value] : parameters) {
-    const auto at = std::find_if(table.begin(), table.end(), [&](const auto& p) { return p->key == name + '_' + key; });
+    const std::string full = name + '_' + key;
+    const auto at = std::find_if(table.begin(), table.end(), [&](const auto& known) { return known->key == full; });
     REQUIRE(at != table.end());
     dmrp_param_value given{};
     given.integer = std::lround(value);
