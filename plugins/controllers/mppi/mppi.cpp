@@ -6,7 +6,6 @@
 #include <cmath>
 #include <dmrp/toolkit/angle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <string_view>
 
 #include "controllers/motion/unicycle.hpp"
 
@@ -56,31 +55,6 @@ Status Mppi::start(const Start& start) {
   model_.holonomic = robot.kinematics == DMRP_KINEMATICS_HOLONOMIC;
   model_.deviation = {static_cast<float>(vx_std), static_cast<float>(vy_std), static_cast<float>(wz_std)};
   read_limits(*robot.limits);
-  cost_settings_ = {CostCritic,
-                    static_cast<float>(CostCritic_critical_cost),
-                    CostCritic_near_collision_cost,
-                    static_cast<float>(CostCritic_collision_cost),
-                    static_cast<float>(CostCritic_near_goal_distance),
-                    CostCritic_trajectory_point_step};
-  obstacles_settings_ = {ObstaclesCritic_cost_power,
-                         static_cast<float>(ObstaclesCritic_repulsion_weight),
-                         static_cast<float>(ObstaclesCritic_critical_weight),
-                         static_cast<float>(ObstaclesCritic_collision_cost),
-                         static_cast<float>(ObstaclesCritic_collision_margin_distance),
-                         static_cast<float>(ObstaclesCritic_near_goal_distance)};
-  path_align_settings_ = {PathAlignCritic,
-                          static_cast<float>(PathAlignCritic_max_path_occupancy_ratio),
-                          PathAlignCritic_offset_from_furthest,
-                          PathAlignCritic_trajectory_point_step,
-                          static_cast<float>(PathAlignCritic_threshold_to_consider),
-                          PathAlignCritic_use_path_orientations};
-  path_angle_settings_ = {PathAngleCritic, PathAngleCritic_offset_from_furthest,
-                          static_cast<float>(PathAngleCritic_threshold_to_consider),
-                          static_cast<float>(PathAngleCritic_max_angle_to_furthest),
-                          static_cast<mppi::PathAngleMode>(*PathAngleCritic_mode)};
-  // a robot that may not drive backward has to face its path
-  if (robot.limits->v_min == 0.0 && path_angle_settings_.mode == mppi::PathAngleMode::no_directional_preference)
-    path_angle_settings_.mode = mppi::PathAngleMode::forward_preference;
   model_.slowest_m_s = robot.limits->v_min == 0.0 && sample_forward ? 0.0f : mppi::Model{}.slowest_m_s;
   begin(start);
   noise_.start(start.seed, start.robot);
@@ -92,17 +66,15 @@ Status Mppi::start(const Start& start) {
 }
 
 bool Mppi::choose_critics() {
-  static constexpr std::array<std::string_view, critic_count> names = {
-      "ConstraintCritic", "CostCritic",       "ObstaclesCritic", "GoalCritic",          "GoalAngleCritic",
-      "PathAlignCritic",  "PathFollowCritic", "PathAngleCritic", "PreferForwardCritic", "TwirlingCritic"};
-  chosen_ = 0;
+  for (mppi::Critic& critic : all_critics) critic.is_chosen = false;
   for (const std::string& name : *critics) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end()) {
+    const auto at = std::find_if(all_critics.begin(), all_critics.end(),
+                                 [&](const mppi::Critic& critic) { return critic.name == name; });
+    if (at == all_critics.end()) {
       set_error("critics: there is no " + name);
       return false;
     }
-    chosen_ |= 1u << (at - names.begin());
+    at->is_chosen = true;
   }
   return true;
 }
@@ -202,27 +174,11 @@ bool Mppi::optimize(const Observation& now) {
 
 bool Mppi::score() {
   std::fill(costs_.begin(), costs_.end(), 0.0f);
-  bool any_is_free = true;
   scene_.furthest = mppi::furthest_reached(batch_, scene_);
-  if (has(constraint)) mppi::add_constraint(batch_, model_, ConstraintCritic, costs_);
-  if (has(cost)) any_is_free = mppi::add_cost(batch_, model_, cost_settings_, field_, scene_, costs_);
-  if (has(obstacles))
-    any_is_free = mppi::add_obstacles(batch_, model_, obstacles_settings_, field_, scene_, costs_) && any_is_free;
-  if (has(goal))
-    mppi::add_goal(batch_, GoalCritic, static_cast<float>(GoalCritic_threshold_to_consider), scene_, costs_);
-  if (has(goal_angle))
-    mppi::add_goal_angle(batch_, GoalAngleCritic, static_cast<float>(GoalAngleCritic_threshold_to_consider), scene_,
-                         costs_);
-  if (has(path_align)) mppi::add_path_align(batch_, path_align_settings_, scene_, costs_);
-  if (has(path_follow))
-    mppi::add_path_follow(batch_, PathFollowCritic, PathFollowCritic_offset_from_furthest,
-                          static_cast<float>(PathFollowCritic_threshold_to_consider), scene_, costs_);
-  if (has(path_angle)) mppi::add_path_angle(batch_, path_angle_settings_, scene_, costs_);
-  if (has(prefer_forward))
-    mppi::add_prefer_forward(batch_, model_, PreferForwardCritic,
-                             static_cast<float>(PreferForwardCritic_threshold_to_consider), scene_, costs_);
-  if (has(twirling)) mppi::add_twirling(batch_, TwirlingCritic, scene_, costs_);
-  return any_is_free;
+  mppi::CriticData data = {model_, batch_, scene_, field_, costs_};
+  for (const mppi::Critic& critic : all_critics)
+    if (critic.is_chosen) critic.add(data);
+  return !data.all_collide;
 }
 
 // The velocity at the end of this period, and no faster than the robot can stop at its stop point.
