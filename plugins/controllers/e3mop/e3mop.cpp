@@ -27,18 +27,6 @@ constexpr double turn_end_rad = 0.15;
 // The path's direction at its start is that to the point at this distance.
 constexpr double lead_m = 0.25;
 
-// A way that keeps the margin counts if it ends at the end of the path ahead; or at least so far away, and so few points
-// of the path before that of a way without it.
-constexpr double leads_on_m = 1.0;
-constexpr std::size_t points_short = 5;
-
-// A way that keeps the margin does not count if it takes this many times as long as one without it.
-constexpr double far_factor = 1.5;
-
-bool is_far(Ticks cost, Ticks other) {
-  return static_cast<double>(cost) > far_factor * static_cast<double>(other);
-}
-
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.2;
 
@@ -78,14 +66,8 @@ Status E3mop::start(const Start& start) {
   limits_ = {};
   turning_ = false;
   way_out_.reset();
-  detour_.clear();
   path_.clear();
   return Status::ok;
-}
-
-void E3mop::set_path(Path path, std::uint64_t) {
-  tracker_.set_path(path);
-  detour_.clear();
 }
 
 Status E3mop::control(const Observation& now, Command& command) {
@@ -119,32 +101,27 @@ void E3mop::prepare(const Observation& now) {
   path_.reserve(2 * path_.size());
   path_.clear();
   intended_.reserve(64);
-  way_.reserve(512);
 }
 
-// Plans a path on the lattice, shapes it and follows it; turns in place if the path leads aside.
+// The paper's steps, one after the other: the obstacles and the path ahead, a search on the lattice, smoothing and the
+// velocity profile, and the tracking controller. The robot turns in place where the path leads aside or back.
 Command E3mop::drive(const Observation& now) {
   const CostmapView map(*costmap_->costmap(costmap_, now.robot));
   const FootprintCheck outline(map, now.footprint, footprint_padding, now.pose);
   const bool has_agents = read_fields(now);
   const FreeSpace seen(field_, now.footprint, footprint_padding, now.pose, &outline);
-  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
-  lay_out_global_path(now, map);
   if (way_out_.is_taken()) return way_out_.drive(now, seen);
-  std::optional<Plan> plan = choose_plan(now, outline, has_agents);
-  if (keep_detour && !follows_path(plan, now)) {
-    ahead_.look_along(detour_, tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
-    global_path_ = ahead_.points();
-    plan = choose_plan(now, outline, has_agents);
-    if (!plan || plan->goal.is_cut || !plan->found->found) detour_.clear();
-  }
+  lay_out_global_path(now, map);
+
+  const std::optional<Plan> plan = choose_plan(now, outline, has_agents);
   if (!plan) {
     path_.clear();
     return braking(now);
   }
 
-  // turns in place to a path that leads aside or back, and gives up the kept path for that
-  const bool is_shaped = rough_.kept == 1 && now.velocity.v_x < slow_m_s && shape_path(now, plan->free_space);
+  // a robot that may turn in place sees where the shaped path leads before it gives up the kept one
+  const bool may_turn = rough_.kept == 1 && now.velocity.v_x < slow_m_s;
+  bool is_shaped = may_turn && shape_path(now, plan->free_space);
   const Vec2 lead = lead_point(is_shaped);
   const double aside = toolkit::difference(plan->from.theta, toolkit::bearing(plan->from, lead));
   turning_ = std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad);
@@ -152,61 +129,30 @@ Command E3mop::drive(const Observation& now) {
     path_.clear();
     return guarded_turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);
   }
-  const bool has_path = is_shaped || shape_path(now, plan->free_space);
-  const Command command = has_path ? guarded(now, follow(path_, now), seen) : braking(now);
-  if (has_path) annotate(plan->found->poses);
+  is_shaped = is_shaped || shape_path(now, plan->free_space);
+
+  const Command command = is_shaped ? guarded(now, follow(path_, now), seen) : braking(now);
+  if (is_shaped) annotate(plan->found->poses);
   const bool leaves = leave_padding && way_out_.take(now, command, toolkit::bearing(now.pose, lead), seen);
-  if (!has_path || leaves) path_.clear();
+  if (!is_shaped || leaves) path_.clear();
   return command;
 }
 
-// Plans with the margin, as long as there is a way so wide; otherwise without it; and with the agents' current
-// positions, if their predicted motion blocks every path. To where the robot lets somebody pass who leaves it no way.
+// Plans among the agents' predicted motion; among their current positions, if that blocks every path; and to where the
+// robot lets somebody pass who leaves it no way.
 std::optional<E3mop::Plan> E3mop::choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents) {
-  std::optional<Plan> chosen;
-  if (clearance_margin > 0.0) chosen = plan_clear(now, outline);
-  if (chosen) return chosen;
-  chosen = plan_with(0.0, now, outline);
+  const auto free_space = [&] { return FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline); };
+  std::optional<Plan> chosen = plan(now, free_space());
   if (!(chosen && chosen->found->found) && has_agents) {
     foreseen_ = field_;
-    chosen = plan_with(0.0, now, outline);
+    chosen = plan(now, free_space());
   }
   const bool is_open = chosen && chosen->found->found && !chosen->goal.is_cut;
   if (is_open || !keep_right) return chosen;
-  const FreeSpace free_space(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
-  const std::optional<Vec2> place = lay_by(now, global_path_, prediction_time, free_space);
+  const std::optional<Vec2> place = lay_by(now, global_path_, prediction_time, free_space());
   if (!place || !local_plan_.can_reach(*place)) return chosen;
   if (toolkit::distance(toolkit::position(now.pose), *place) < lay_by_reached_m) return {};
-  return plan_to({*place, true, false, 0}, keep_path(now, free_space), now, free_space);
-}
-
-std::optional<E3mop::Plan> E3mop::plan_with(double margin_m, const Observation& now, const FootprintCheck& outline) {
-  return plan(now, FreeSpace(foreseen_, now.footprint, footprint_padding, now.pose, &outline, margin_m));
-}
-
-// The plan that keeps the margin; the one without it, if that is much shorter. Nothing if the margin leaves no way.
-// Where the margin hardly fits, the search finds the short way from one pose and only a long one from the next: the
-// robot would turn to one and the other for ever.
-std::optional<E3mop::Plan> E3mop::plan_clear(const Observation& now, const FootprintCheck& outline) {
-  std::optional<Plan> chosen = plan_with(clearance_margin, now, outline);
-  const FreeSpace foreseen(foreseen_, now.footprint, footprint_padding, now.pose, &outline);
-  if (!chosen || !leads_on(*chosen, now, foreseen)) return {};
-  const Ticks cost = chosen->found->cost;
-  if (!is_far(cost, chosen->found->least_cost)) return chosen;
-  chosen = plan_with(0.0, now, outline);
-  if (chosen && chosen->found->found && !chosen->goal.is_cut && is_far(cost, chosen->found->cost)) return chosen;
-  return plan_with(clearance_margin, now, outline);
-}
-
-// Whether a plan that keeps the margin leads where any plan would, or nearly so.
-bool E3mop::leads_on(const Plan& plan, const Observation& now, const FreeSpace& free_space) const {
-  if (!plan.found->found || plan.goal.is_cut) return false;
-  if (plan.goal.is_path_end) return true;
-  if (toolkit::distance(toolkit::position(now.pose), plan.goal.at) < leads_on_m) return false;
-  const auto is_free = [&](Vec2 point) { return free_space.is_free({point, {1.0, 0.0}}); };
-  const auto beyond = global_path_.begin() +
-                      static_cast<std::ptrdiff_t>(std::min(plan.goal.index + points_short + 1, global_path_.size()));
-  return std::none_of(beyond, global_path_.end(), is_free);
+  return plan_to({*place, true, false}, keep_path(now, free_space()), now, free_space());
 }
 
 // Whether there are agents whose motion is foreseen.
@@ -224,12 +170,10 @@ bool E3mop::read_fields(const Observation& now) {
   return has_agents;
 }
 
-// The path ahead up to a turning point: the robot has to reach the tip of an excursion before the way back counts. If
-// the window holds none of the path, the straight line to it.
+// The path ahead up to a turning point: the robot has to reach the tip of an excursion before the way back counts.
 void E3mop::lay_out_global_path(const Observation& now, const CostmapView& map) {
+  ahead_.look(tracker_, now, map, max_global_plan_lookahead_dist, window_margin_m);
   global_path_.clear();
-  returns_ = return_to_path && map.index_of(ahead_.points().front()) < 0;
-  if (returns_) return lay_out_return(now, map);
   const std::vector<Vec2>& points = ahead_.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i >= 2) {
@@ -240,35 +184,6 @@ void E3mop::lay_out_global_path(const Observation& now, const CostmapView& map) 
     }
     global_path_.push_back(points[i]);
   }
-}
-
-// A robot that a detour has led so far from its path that the window holds none of it has nothing else to plan to.
-void E3mop::lay_out_return(const Observation& now, const CostmapView& map) {
-  const Vec2 from = toolkit::position(now.pose);
-  const Vec2 to = ahead_.points().front();
-  const Vec2 step = PathAhead::spacing_m * toolkit::normalized(to - from);
-  const auto steps = static_cast<int>(max_global_plan_lookahead_dist / PathAhead::spacing_m);
-  global_path_.push_back(from);
-  for (int i = 1; i <= steps && map.index_of(from + i * step) >= 0; ++i) global_path_.push_back(from + i * step);
-}
-
-// Whether the robot is to follow a plan along the path; not if it has kept a detour that leads farther. If there is an
-// obstacle on the path before the plan's end, keeps the plan's way as a detour.
-bool E3mop::follows_path(const std::optional<Plan>& plan, const Observation& now) {
-  detour_.update(toolkit::position(now.pose), tracker_.progress_m());
-  const bool leads_on = plan && !plan->goal.is_cut;
-  const std::size_t last = leads_on && !returns_ ? plan->goal.index : 0;
-  const double end_m = tracker_.progress_m() + PathAhead::spacing_m * static_cast<double>(last);
-  if (detour_.leads_beyond(end_m)) return false;
-  detour_.clear();
-  if (!leads_on || !plan->found->found || returns_) return true;
-  const auto is_free = [&](Vec2 point) { return plan->free_space.is_free({point, {1.0, 0.0}}); };
-  if (std::all_of(global_path_.begin(), global_path_.begin() + static_cast<std::ptrdiff_t>(last), is_free)) return true;
-  way_.clear();
-  for (const Pose& pose : plan->found->poses) way_.push_back(toolkit::position(pose));
-  way_.push_back(plan->goal.at);
-  detour_.keep(way_, end_m);
-  return true;
 }
 
 // Begins rough_ with the part of the last path that the robot is about to drive, or with the robot's position if there
@@ -301,9 +216,8 @@ Pose E3mop::keep_path(const Observation& now, const FreeSpace& free_space) {
 // Sets rough_ to the part of the last path that stays and the lattice path from there. Nothing if the robot has to wait.
 std::optional<E3mop::Plan> E3mop::plan(const Observation& now, const FreeSpace& free_space) {
   const Pose from = keep_path(now, free_space);
-  const std::optional<LatticeGoal> goal =
-      local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space, now.footprint.inscribed_radius_m,
-                              global_path_, end_beside_obstacles);
+  const std::optional<LatticeGoal> goal = local_plan_.choose_goal(toolkit::position(from), foreseen_, free_space,
+                                                                  now.footprint.inscribed_radius_m, global_path_);
   if (!goal) return {};
   if (goal->is_cut && toolkit::distance(toolkit::position(now.pose), goal->at) < wait_within_m) return {};
   return plan_to(*goal, from, now, free_space);

@@ -50,25 +50,12 @@ class E3mop final : public PathController {
       param("max_iterations", 100).unit("1").range(0, 1000).doc("maximum iterations of Levenberg-Marquardt");
   Param<double> footprint_padding =
       param("footprint_padding", 0.05).unit("m").range(0.0, 0.5).doc("kept free around the footprint");
-  Param<double> clearance_margin =
-      param("clearance_margin", 0.1)
-          .unit("m")
-          .range(0.0, 1.0)
-          .doc("departure: kept free beyond the padding where there is a way as wide as that; 0: off");
   Param<bool> leave_padding =
       param("leave_padding", true)
           .doc("departure: a robot that the collision check stops first drives clear, aside of its path");
-  Param<bool> keep_detour =
-      param("keep_detour", true)
-          .doc("departure: a way around an obstacle is kept until it is driven, though its end has left the window");
-  Param<bool> return_to_path =
-      param("return_to_path", true).doc("departure: drive straight to a path that lies outside the window; off: stand");
   Param<bool> keep_right =
       param("keep_right", true)
           .doc("departure: a robot that somebody leaves no way moves to its right-hand side to let them pass");
-  Param<bool> end_beside_obstacles =
-      param("end_beside_obstacles", true)
-          .doc("departure: where the path's end is too close to an obstacle, a free cell beside it counts as its end");
   Param<double> prediction_time =
       param("prediction_time", 1.0)
           .unit("s")
@@ -76,7 +63,6 @@ class E3mop final : public PathController {
           .doc("departure: time for which the predicted motion of visible agents counts as occupied");
 
   Status start(const Start& start) override;
-  void set_path(Path path, std::uint64_t revision) override;
 
  private:
   Status control(const Observation& now, Command& command) override;
@@ -92,16 +78,11 @@ class E3mop final : public PathController {
   Command drive(const Observation& now);
   bool read_fields(const Observation& now);
   void lay_out_global_path(const Observation& now, const CostmapView& map);
-  void lay_out_return(const Observation& now, const CostmapView& map);
-  bool follows_path(const std::optional<Plan>& plan, const Observation& now);
   Pose keep_path(const Observation& now, const e3mop::FreeSpace& free_space);
   std::optional<Plan> choose_plan(const Observation& now, const FootprintCheck& outline, bool has_agents);
-  std::optional<Plan> plan_clear(const Observation& now, const FootprintCheck& outline);
-  std::optional<Plan> plan_with(double margin_m, const Observation& now, const FootprintCheck& outline);
   std::optional<Plan> plan(const Observation& now, const e3mop::FreeSpace& free_space);
   std::optional<Plan> plan_to(const e3mop::LatticeGoal& goal, const Pose& from, const Observation& now,
                               const e3mop::FreeSpace& free_space);
-  bool leads_on(const Plan& plan, const Observation& now, const e3mop::FreeSpace& free_space) const;
   void append_points(const Plan& plan);
   bool shape_path(const Observation& now, const e3mop::FreeSpace& free_space);
   Vec2 lead_point(bool is_shaped) const;
@@ -114,7 +95,6 @@ class E3mop final : public PathController {
   std::vector<e3mop::PathPoint> path_;  // the path in use; empty if there is none
   bool turning_ = false;                // in place
   e3mop::WayOut way_out_;
-  Detour detour_;
   Limits limits_{};  // for which the lattice was built
 
   // buffers, filled anew in every cycle
@@ -122,8 +102,6 @@ class E3mop final : public PathController {
   e3mop::ClearanceField foreseen_;  // with the predicted motion of visible agents
   PathAhead ahead_;
   std::vector<Vec2> global_path_;  // the part of the path ahead that is planned to
-  bool returns_ = false;           // the window holds none of the path: global_path_ leads straight to it
-  std::vector<Vec2> way_;          // to keep as a detour
   e3mop::LocalPlan local_plan_;
   e3mop::RoughPath rough_;
   e3mop::PathShaper shaper_;

@@ -51,13 +51,12 @@ void LatticeSearch::find(const Pose& start, const SearchSpace& space, const Sear
                          SearchResult& result) {
   result.found = false;
   result.expanded = 0;
-  result.cost = result.least_cost = 0;
+  result.cost = 0;
   result.poses.clear();
   begin(space.frame);
   const std::int32_t center = space.frame.center_cell();
   const std::int32_t distance = space.goal.distance(center);
   if (distance == GoalDistances::infinite) return;
-  result.least_cost = cost_to_go(distance, space.frame.resolution_m, settings.v_max);
 
   // the robot's heading lies between two lattice headings: it may turn to either
   const int nearest = nearest_direction(start.theta);

@@ -32,7 +32,6 @@ struct SearchSettings {
 struct SearchResult {
   bool found = false;
   Ticks cost = 0;
-  Ticks least_cost = 0;       // a lower bound, by the heuristic
   std::int32_t expanded = 0;  // states
   // The path; if none was found, the path to the state closest to the goal by the heuristic. Poses are at most 0.05 m
   // apart; headings follow the lattice's directions and the arcs between them. Turns in place repeat the position.

@@ -9,9 +9,6 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// Points are checked with any heading; this one stands for all.
-constexpr Vec2 heading_of_a_disc = {1.0, 0.0};
-
 // Whoever is faster than this in the direction of the path drives ahead of the robot.
 constexpr double ahead_m_s = 0.1;
 
@@ -45,7 +42,7 @@ std::optional<double> radius_of_opposite(const Observation& now, Vec2 point, Vec
 
 std::optional<Vec2> lay_by(const Observation& now, const std::vector<Vec2>& path, double prediction_time_s,
                            const FreeSpace& free_space) {
-  const auto is_free = [&](Vec2 point) { return free_space.is_free({point, heading_of_a_disc}); };
+  const auto is_free = [&](Vec2 point) { return free_space.can_stand(point); };
   const auto blocked = std::find_if_not(path.begin(), path.end(), is_free);
   if (blocked == path.end() || path.size() < 2) return {};
   const auto first = static_cast<std::size_t>(blocked - path.begin());

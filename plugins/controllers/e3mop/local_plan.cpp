@@ -6,13 +6,6 @@
 
 namespace dmrp::controllers::e3mop {
 
-namespace {
-
-// Points are checked with any heading; this one stands for all.
-constexpr Vec2 any_heading = {1.0, 0.0};
-
-}  // namespace
-
 void LocalPlan::prepare(const Limits& limits, double resolution_m, const ClearanceField& field) {
   motions_.build(limits, resolution_m);
   frame_.resolution_m = resolution_m;
@@ -53,36 +46,15 @@ bool LocalPlan::can_reach(Vec2 goal) {
   return to_goal_.distance(frame_.center_cell()) != GoalDistances::infinite;
 }
 
-// The nearest of the nine cells about a point where the robot can stand.
-std::optional<Vec2> LocalPlan::place_beside(Vec2 point, const FreeSpace& free_space) const {
-  const std::int32_t cell = frame_.cell_of(point);
-  if (cell < 0) return {};
-  std::optional<Vec2> nearest;
-  for (const std::int32_t row : {-1, 0, 1}) {
-    for (const std::int32_t column : {-1, 0, 1}) {
-      const Vec2 at = frame_.point_of(cell + row * frame_.stride() + column);
-      if (nearest && toolkit::distance(at, point) >= toolkit::distance(*nearest, point)) continue;
-      if (free_space.is_free({at, any_heading})) nearest = at;
-    }
-  }
-  return nearest;
-}
-
 std::optional<LatticeGoal> LocalPlan::choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
-                                                  double inscribed_radius_m, const std::vector<Vec2>& path,
-                                                  bool ends_beside) {
+                                                  double inscribed_radius_m, const std::vector<Vec2>& path) {
   lay_lattice(robot, field, free_space, inscribed_radius_m);
-  const auto can_stand = [&](Vec2 point) { return free_space.is_free({point, any_heading}); };
-  if (ends_beside && !can_stand(path.back())) {
-    const std::optional<Vec2> beside = place_beside(path.back(), free_space);
-    if (beside && can_reach(*beside)) return LatticeGoal{*beside, false, true, path.size() - 1};
-  }
   const auto goal_at = [&](std::size_t i, bool is_cut) -> std::optional<LatticeGoal> {
     if (!can_reach(path[i])) return {};
-    return LatticeGoal{path[i], is_cut, i + 1 == path.size(), i};
+    return LatticeGoal{path[i], is_cut, i + 1 == path.size()};
   };
   std::size_t last = path.size();
-  while (last > 0 && !(frame_.cell_of(path[last - 1]) >= 0 && can_stand(path[last - 1]))) --last;
+  while (last > 0 && !(frame_.cell_of(path[last - 1]) >= 0 && free_space.can_stand(path[last - 1]))) --last;
   if (last == 0) return {};
   --last;
   if (const auto goal = goal_at(last, false)) return goal;
@@ -90,7 +62,7 @@ std::optional<LatticeGoal> LocalPlan::choose_goal(Vec2 robot, const ClearanceFie
   from_robot_.seed(frame_.center_cell());
   for (std::size_t i = last; i-- > 0;) {
     const std::int32_t cell = frame_.cell_of(path[i]);
-    if (cell < 0 || from_robot_.distance(cell) == GoalDistances::infinite || !can_stand(path[i])) continue;
+    if (cell < 0 || from_robot_.distance(cell) == GoalDistances::infinite || !free_space.can_stand(path[i])) continue;
     return goal_at(i, true);
   }
   return {};

@@ -14,7 +14,6 @@ struct LatticeGoal {
   Vec2 at = {0.0, 0.0};
   bool is_cut = false;       // obstacles separate the robot from the last free point of the path
   bool is_path_end = false;  // the last point of the path
-  std::size_t index = 0;     // of the point
 };
 
 // The window's lattice, its heuristic and its search. Reuses its buffers from cycle to cycle.
@@ -24,10 +23,9 @@ class LocalPlan {
   void prepare(const Limits& limits, double resolution_m, const ClearanceField& field);
 
   // Lays the lattice about the robot and chooses the last point of the global path where the robot can stand and that
-  // it can reach, according to the heuristic's grid. Nothing if it can reach none. If `ends_beside`, and the path's end
-  // is too close to an obstacle, a free cell at most a cell and a half beside counts as the end.
+  // it can reach, according to the heuristic's grid. Nothing if it can reach none.
   std::optional<LatticeGoal> choose_goal(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space,
-                                         double inscribed_radius_m, const std::vector<Vec2>& path, bool ends_beside);
+                                         double inscribed_radius_m, const std::vector<Vec2>& path);
 
   // Takes another goal; false if the robot cannot reach it.
   bool can_reach(Vec2 goal);
@@ -37,7 +35,6 @@ class LocalPlan {
 
  private:
   void lay_lattice(Vec2 robot, const ClearanceField& field, const FreeSpace& free_space, double inscribed_radius_m);
-  std::optional<Vec2> place_beside(Vec2 point, const FreeSpace& free_space) const;
 
   MotionSet motions_;
   LatticeFrame frame_;

@@ -110,6 +110,13 @@ TEST_CASE("Two robots meet head-on in a corridor of 2 m") {
   }
 }
 
+// Gives the robot a straight path to its goal, once a second.
+void lead_anew(Course& now, double t_s, const dmrp_pose& pose) {
+  if (t_s + 0.05 < static_cast<double>(now.revision)) return;
+  ++now.revision;
+  now.path = {{pose.x, pose.y}, now.path.back()};
+}
+
 TEST_CASE("Two robots whose paths cross") {
   const Controller controller = GENERATE(from_range(evading_controllers()));
   const bool tracking = GENERATE(true, false);
@@ -121,6 +128,10 @@ TEST_CASE("Two robots whose paths cross") {
   Course north = east;
   north.path = metre_path({{4.0, -4.5}, {4.0, 4.0}});
   north.start = {4.0, -4.5, 0.5 * dmrp::toolkit::pi};
+  if (controller.id == "dmrp.controller.e3mop") {
+    // it evades alongside the other robot, out of sight of its path: routes have to begin at the robot
+    east.change = north.change = lead_anew;
+  }
 
   for (const Drive& drive : drive_two(controller.id, east, north, controller.tuned)) {
     check_arrives(drive, 25.0);

@@ -8,8 +8,10 @@
 #include "controllers/e3mop/path_follower.hpp"
 #include "controllers/e3mop/path_smoother.hpp"
 #include "controllers/e3mop/velocity_profile.hpp"
+#include "controllers/e3mop/way_out.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_paths.hpp"
 #include "tests/unit/controllers/e3mop/e3mop_window.hpp"
+#include "tests/unit/controllers/fake_costmap.hpp"
 
 namespace e3mop_test {
 
@@ -66,45 +68,55 @@ TEST_CASE("A moving disc occupies the area that it sweeps") {
 TEST_CASE("A robot that stands too close to an obstacle may leave but come no closer") {
   const Window window = discs_window({{0.0, 0.55}}, 0.3);
   const FreeSpace from_afar(window.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, 0.0, 0.0});
-  CHECK_FALSE(from_afar.is_free({{0.0, 0.0}, {1.0, 0.0}}));
+  CHECK_FALSE(from_afar.can_stand({0.0, 0.0}));
   const FreeSpace from_there(window.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {0.0, 0.0, 0.0});
-  CHECK(from_there.is_free({{0.0, 0.0}, {1.0, 0.0}}));
-  CHECK(from_there.is_free({{0.1, 0.0}, {1.0, 0.0}}));
-  CHECK(from_there.is_free({{0.0, -0.1}, {1.0, 0.0}}));
-  CHECK_FALSE(from_there.is_free({{0.0, 0.04}, {1.0, 0.0}}));
-  CHECK_FALSE(from_there.is_free({{0.75, 0.55}, {1.0, 0.0}}) != from_afar.is_free({{0.75, 0.55}, {1.0, 0.0}}));
+  CHECK(from_there.can_stand({0.0, 0.0}));
+  CHECK(from_there.can_stand({0.1, 0.0}));
+  CHECK(from_there.can_stand({0.0, -0.1}));
+  CHECK_FALSE(from_there.can_stand({0.0, 0.04}));
+  CHECK_FALSE(from_there.can_stand({0.75, 0.55}) != from_afar.can_stand({0.75, 0.55}));
 }
 
 TEST_CASE("Whether a point is free depends on its own distance, not on that of its cell's centre") {
   const Window wall({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return point.y > 0.6; });
   const FreeSpace space(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, -1.0, 0.0});
-  const FreeSpace with_margin(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {-2.0, -1.0, 0.0}, nullptr,
-                              0.1);
-  CHECK(with_margin.needed_m() == Approx(space.needed_m() + 0.1));
   for (double y = 0.0; y < 0.5; y += 0.003) {
     const dmrp_vec2 at = {0.51, y};
-    CHECK(space.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= space.needed_m()));
-    CHECK(with_margin.is_free({at, {1.0, 0.0}}) == (wall.field.at(at).distance_m >= with_margin.needed_m()));
+    CHECK(space.can_stand(at) == (wall.field.at(at).distance_m >= space.needed_m()));
   }
 }
 
-TEST_CASE("A path that ends too close to an obstacle leads to a place beside its end") {
+TEST_CASE("A long robot can stand where it fits at one heading alone") {
+  // between two walls 0.8 m apart, which the robot is too long to face
+  const std::vector<dmrp_vec2> corners = {{-0.45, -0.15}, {0.45, -0.15}, {0.45, 0.15}, {-0.45, 0.15}};
+  const std::vector<dmrp_polygon> parts = {dmrp::test::polygon_of(corners)};
+  const dmrp_footprint c_footprint = dmrp::test::polygon_footprint(parts, 0.475, 0.15);
+  const dmrp::Footprint footprint(c_footprint);
+  dmrp::test::FakeCostmap fake(80);
+  for (double y = 0.025; y < 4.0; y += 0.05) fake.mark(1.575, y), fake.mark(2.425, y);
+  const dmrp_costmap map = fake.c();
+  const dmrp_pose robot = {2.0, 2.0, 0.5 * pi};
+  const Window walls(robot, [](dmrp_vec2 point) { return std::abs(point.x - 2.0) > 0.4; });
+  const FootprintCheck outline(CostmapView(map), footprint, 0.0, robot);
+  const FreeSpace space(walls.field, footprint, 0.0, robot, &outline);
+  const dmrp_vec2 at = {2.0, 2.3};
+  CHECK_FALSE(space.is_free(directed(at, 0.0)));
+  CHECK(space.is_free(directed(at, 0.5 * pi)));
+  CHECK(space.can_stand(at));
+  CHECK_FALSE(space.can_stand({2.35, 2.3}));
+}
+
+TEST_CASE("A path that ends too close to an obstacle leads to its last point where the robot can stand") {
   const Window wall({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return point.y > 0.6; });
   const FreeSpace space(wall.field, dmrp::Footprint(dmrp::test::e3mop_disc), 0.05, {0.0, 0.0, 0.0});
   LocalPlan plan;
   plan.prepare(dmrp::Limits(e3mop_limits), 0.1, wall.field);
-  const dmrp_vec2 end = {0.51, 0.37};
-  REQUIRE_FALSE(space.is_free({end, {1.0, 0.0}}));
-  const std::vector<dmrp_vec2> path = {{0.0, 0.0}, {0.2, 0.0}, {0.4, 0.2}, end};
-  const auto as_published = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, path, false);
-  REQUIRE(as_published);
-  CHECK_FALSE(as_published->is_path_end);
-  CHECK(as_published->index == 2);
-  const auto goal = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, path, true);
+  const std::vector<dmrp_vec2> path = {{0.0, 0.0}, {0.2, 0.0}, {0.4, 0.2}, {0.51, 0.37}};
+  REQUIRE_FALSE(space.can_stand(path[3]));
+  const auto goal = plan.choose_goal({0.0, 0.0}, wall.field, space, 0.25, path);
   REQUIRE(goal);
-  CHECK((goal->is_path_end && !goal->is_cut));
-  CHECK(space.is_free({goal->at, {1.0, 0.0}}));
-  CHECK(dmrp::toolkit::distance(goal->at, end) < 0.15);
+  CHECK(goal->at == path[2]);
+  CHECK_FALSE((goal->is_path_end || goal->is_cut));
 }
 
 TEST_CASE("The objective's gradient agrees with finite differences") {
@@ -278,15 +290,51 @@ TEST_CASE("A profile starts at the robot's speed and gives the time of the stop"
   CHECK(speed_after(path, 10.0) == 0.0);
 }
 
-TEST_CASE("The tracking controller returns to its path") {
-  const dmrp_goal goal{};
+const dmrp_goal any_goal{};
+
+dmrp_observation observation() {
   dmrp_observation c{};
   c.struct_size = sizeof(c);
-  c.goal = &goal;
+  c.goal = &any_goal;
   c.dt_ns = 100'000'000;
   c.limits = &e3mop_limits;
   c.footprint = &dmrp::test::e3mop_disc;
   c.agent_stride = sizeof(dmrp_agent);
+  return c;
+}
+
+void move(dmrp_observation& c, const dmrp::Command& command) {
+  c.velocity = {command.v_x, 0.0, command.omega};
+  DirectedPoint at = directed(c.pose);
+  ArcStepper(command.v_x, command.omega, 0.1).step(at);
+  c.pose = pose_of(at);
+}
+
+TEST_CASE("A robot that has stood at a wall for a second drives clear of it, as nearly toward its path as it can") {
+  const Window wall({0.0, 0.0, 0.0}, [](dmrp_vec2 point) { return point.y > 0.3; });
+  dmrp_observation c = observation();
+  c.pose = {0.0, 0.02, 0.5};
+  WayOut way_out;
+  int waits = 0;
+  bool is_taken = false;
+  while (!is_taken && waits < 100) {
+    const dmrp::Observation now(c);
+    is_taken = way_out.take(now, {}, 0.5, FreeSpace(wall.field, now.footprint, 0.05, c.pose));
+    ++waits;
+  }
+  CHECK((waits == 10 || waits == 11));
+  for (int k = 0; k < 100 && way_out.is_taken(); ++k) {
+    const dmrp::Observation now(c);
+    move(c, way_out.drive(now, FreeSpace(wall.field, now.footprint, 0.05, c.pose)));
+    REQUIRE(wall.field.at({c.pose.x, c.pose.y}).distance_m > 0.295);  // radius and padding, but for the tolerance
+  }
+  CHECK_FALSE(way_out.is_taken());
+  CHECK(c.pose.x > 0.15);
+  CHECK(c.pose.theta < 0.1);
+}
+
+TEST_CASE("The tracking controller returns to its path") {
+  dmrp_observation c = observation();
   const double aside_m = GENERATE(-0.1, 0.0, 0.1);
   const double aside_rad = GENERATE(-0.5, 0.0, 0.5);
   c.pose = {0.0, aside_m, aside_rad};
@@ -298,10 +346,7 @@ TEST_CASE("The tracking controller returns to its path") {
     REQUIRE(std::abs(command.v_x - c.velocity.v_x) <= 0.1 + 1e-9);
     REQUIRE(std::abs(command.omega - c.velocity.omega) <= 0.1 + 1e-9);
     REQUIRE((command.v_x >= 0.0 && command.v_x <= 0.8 && std::abs(command.omega) <= 1.0));
-    c.velocity = {command.v_x, 0.0, command.omega};
-    DirectedPoint at = directed(c.pose);
-    ArcStepper(command.v_x, command.omega, 0.1).step(at);
-    c.pose = pose_of(at);
+    move(c, command);
     REQUIRE(std::abs(c.pose.y) < 0.35);
   }
   CHECK(std::abs(c.pose.y) < 0.02);
