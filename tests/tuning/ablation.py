@@ -26,59 +26,38 @@ COURSE = Path(__file__).resolve().parents[2] / "examples" / "driving_course_quic
 WORLDS = ("library", "office", "hospital")
 LEAST_OF_MEAN, LEAST_OF_LEVEL = 0.02, 0.1
 
-# Of each controller: what a need's departures are called, as tuned. All others are off in the variant; prediction,
-# which no route replaces, is never off.
+# Of each controller: what a need's departures are called. All others are off in the variant; prediction, which no route
+# replaces, is never off. tuned: on.
 NEEDS = {
     "dwa": {
-        "way round": {"lean_into_gaps": "true"},
-        "path outside the window": {"return_to_path": "true"},
-        "path turns back": {"enforce_path_inversion": "true"},
-        "brakes": {"brake_in_time": "true"},
         "turns": {"turn_to_better_heading": "true"},
-        "cannot start": {"release_stalled": "true", "leave_path_if_stalled": "true", "leave_padding": "true"},
-        "path's end": {"extend_path": "true"},
+        "cannot start": {"leave_padding": "true"},
+        "turns and cannot start": {"turn_to_better_heading": "true", "leave_padding": "true"},
+        "heavy path": {"leave_path_if_stalled": "true", "extend_path": "true"},
     },
     "teb": {
-        "way round": {"take_detour": "true"},
-        "path's end": {"end_before_obstacles": "true"},
         "head-on": {"share_evasion": "true", "keep_away_between_poses": "true"},
         "gaps": {"ease_from_start": "true", "ease_to_goal": "true"},
-        "turns": {"begin_with_turn": "true"},
-        "brakes": {"slow_down_to_stop": "true"},
     },
     "mpc": {
-        "way round": {"keep_detour": "true", "aim_nearer": "true"},
         "head-on": {"share_evasion": "true"},
-        "makes room": {"make_room": "true"},
         "gaps": {"ease_in_gaps": "true"},
-        "turns": {"turn_if_stuck": "true"},
-        "cannot start": {"drop_waiting": "true"},
-        "brakes": {"brake_in_time": "true"},
-        "steps": {"bound_step_length": "true"},
+        "head-on and gaps": {"share_evasion": "true", "ease_in_gaps": "true"},
+        "makes room": {"make_room": "true"},
     },
     "e3mop": {
-        "way round": {"keep_detour": "true"},
-        "clearance": {"clearance_margin": "0.1"},
-        "path outside the window": {"return_to_path": "true"},
         "head-on": {"keep_right": "true"},
         "cannot start": {"leave_padding": "true"},
-        "path's end": {"end_beside_obstacles": "true"},
     },
     "mppi": {
-        "way round": {"detour": "true"},
-        "path turns back": {"end_at_hairpins": "true"},
         "cannot start": {"sample_forward": "true"},
     },
 }
 
 
-def off(value: str) -> str:
-    return "false" if value == "true" else "0.0"
-
-
 def variants(controller: str) -> dict[str, dict[str, str]]:
     """What each variant sets over the tuned set."""
-    bare = {key: off(value) for need in NEEDS[controller].values() for key, value in need.items()}
+    bare = {key: "false" for need in NEEDS[controller].values() for key in need}
     return {"tuned": {}, "bare": bare, **{name: bare | need for name, need in NEEDS[controller].items()}}
 
 

@@ -126,8 +126,10 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
 TEST_CASE("in a trial with a plan, only values without events or people are undefined") {
   SyntheticTrial trial(2);  // nobody moves, nobody arrives
   trial.planning_grid(6, 1).plan({{{0, 0}, {1, 0}}, {{5, 0}}});
-  for (int t = 0; t <= 3; ++t)
+  for (int t = 0; t <= 3; ++t) {
     trial.sample(t, {at(0, 0), at(5, 0)}).events({becomes(0, DMRP_CLASS_MOVING), becomes(1, DMRP_CLASS_MOVING)});
+    trial.handed(0, {{0, 0}, {1, 0}}).handed(1, {{5, 0}});
+  }
   trial.end(3.0, {never, never});
   const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit", "after_standstill"};
   const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
