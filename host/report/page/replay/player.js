@@ -20,7 +20,8 @@ import {make_time_line} from './time_line.js';
 import {follow_keys, make_transport} from './transport.js';
 
 const KEY =
-  'Solid: trail. Dotted: current plan, with a small ring at the planned position. ' +
+  'Solid: trail; thin, ahead of a robot: the route that leads it around something. ' +
+  'Dotted: current plan, with a small ring at the planned position. ' +
   'Large rings: goals. Grey: people.';
 const SCANS_KEY = " Dots in a robot's colour: lidar hits.";
 const ROOM_PX = 16; // around the parts of the player
