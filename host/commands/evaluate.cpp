@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 struct StoredTrial {
   std::uint64_t id = 0;
   std::uint64_t seed = 0;
+  double sim_time_s = 0.0;
   fs::path trace;
 };
 
@@ -60,7 +61,7 @@ class Measurer {
       const std::uint32_t robots = core::TraceReader(kept.records()).world().robot_count;
       guests_.begin_trial(trial.id, kept.spool_descriptor());
       for (std::uint32_t i = 0; i < evaluation_.metrics.size(); ++i)
-        measure_metric(trial, {kept.in_memory(), nullptr, robots, trial.seed}, i);
+        measure_metric(trial, {kept.in_memory(), nullptr, robots, trial.seed, trial.sim_time_s}, i);
     } catch (const MachineError&) {
       throw;
     } catch (const std::exception& error) {
@@ -72,8 +73,7 @@ class Measurer {
   void measure_metric(const StoredTrial& trial, const FinishedTrial& finished, std::uint32_t index) {
     const PluginUse& use = evaluation_.metrics[index];
     try {
-      const auto budget_ns = static_cast<std::int64_t>(evaluation_.limits.step_time_s * 1e9);
-      sinks_.result(trial, ask_metric(guests_.all(), use, index, finished, budget_ns));
+      sinks_.result(trial, ask_metric(guests_.all(), use, index, finished, evaluation_.limits.step_time_s));
     } catch (const PluginFault& fault) {
       sinks_.failure(trial, words_of(fault));
       if (fault.fatal()) guests_.end(use.library);
@@ -136,7 +136,7 @@ class TraceSearch {
       else if (std::error_code ignored; fs::is_regular_file(trace, ignored) && !is_trace_of(trial, trace))
         missing_.push_back(fmt::format("trial {}: {} was changed after the run", trial.id, trace.string()));
       else if (fs::is_regular_file(trace, ignored))
-        stored.push_back({trial.id, trial.seed, trace});
+        stored.push_back({trial.id, trial.seed, trial.sim_time_s, trace});
       else if (!keeps_trace(recorded_, trial))
         ++unrecorded_;
       else

@@ -87,8 +87,8 @@ class DebuggedTrial {
     fmt::print("{} after {:.2f} s\n", reader.reason(), ending.sim_time_s);
     const auto robots = static_cast<std::uint32_t>(world().scenario.robots.size());
     for (std::uint32_t i = 0; i < experiment_.metrics.size(); ++i)
-      print_values(ask_metric(guests_, experiment_.metrics[i], i, {bytes, &world(), robots, seed_},
-                              nanoseconds(experiment_.limits.step_time_s)));
+      print_values(ask_metric(guests_, experiment_.metrics[i], i, {bytes, &world(), robots, seed_, ending.sim_time_s},
+                              experiment_.limits.step_time_s));
   }
 
   std::optional<PlannerAnswer> plan_of_file() const {

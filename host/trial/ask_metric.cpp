@@ -34,8 +34,14 @@ MetricResult believed(MetricResult given, const PluginInfo& metric, std::uint32_
   return std::move(answer.result());
 }
 
+std::int64_t metric_budget_ns(double step_time_s, const FinishedTrial& trial) {
+  constexpr double share_a_robot = 0.05;  // of step_time_s
+  constexpr double share_a_robot_second = 0.001;
+  return nanoseconds(step_time_s * (1.0 + trial.robots * (share_a_robot + share_a_robot_second * trial.sim_time_s)));
+}
+
 MetricResult ask_metric(Guests& guests, const PluginUse& use, std::uint32_t index, const FinishedTrial& trial,
-                        std::int64_t call_budget_ns) {
+                        double step_time_s) {
   const GuestInstance& metric = guests.get(use, DMRP_NO_ROBOT);
   Guest& guest = *metric.guest;
   MeasureInput input{};
@@ -48,7 +54,8 @@ MetricResult ask_metric(Guests& guests, const PluginUse& use, std::uint32_t inde
   input.trace_bytes = trial.records.size();
   input.seed = trial.seed;
   input.index = index;
-  const std::string_view text = guest.call({GuestTask::measure, metric.number, 0, call_budget_ns, arena.copy(input)});
+  const std::string_view text =
+      guest.call({GuestTask::measure, metric.number, 0, metric_budget_ns(step_time_s, trial), arena.copy(input)});
   try {
     return believed(nlohmann::json::parse(text).get<MetricResult>(), use.info, trial.robots, index);
   } catch (const nlohmann::json::exception&) {

@@ -18,11 +18,16 @@ struct FinishedTrial {
   const VariantWorld* variant = nullptr;  // nullptr: the trace alone tells of its world
   std::uint32_t robots = 0;
   std::uint64_t seed = 0;
+  double sim_time_s = 0.0;
 };
+
+// How long a call of a metric may take: step_time_s for a small trial, and more as robots and their time grow. At its end a
+// metric may look at all robots and at all that they did.
+std::int64_t metric_budget_ns(double step_time_s, const FinishedTrial& trial);
 
 // `index` goes into the result. Throws PluginFault.
 MetricResult ask_metric(Guests& guests, const PluginUse& metric, std::uint32_t index, const FinishedTrial& trial,
-                        std::int64_t call_budget_ns);
+                        double step_time_s);
 
 // What a metric's guest gave as the result, once all in it can be from the metric. Throws UnbelievableMessage.
 MetricResult believed(MetricResult given, const PluginInfo& metric, std::uint32_t robots, std::uint32_t index);

@@ -352,11 +352,11 @@ class Worker {
   void measure(KeptTrace& kept, const Open& trial, std::uint32_t index, std::vector<MetricEvent>& events) {
     const std::uint32_t library = experiment_.metrics[index].library;
     const auto robots = static_cast<std::uint32_t>(trial.world.scenario.robots.size());
-    const std::int64_t budget_ns = nanoseconds(experiment_.limits.step_time_s);
+    const FinishedTrial finished = {kept.in_memory(), &trial.world, robots, trial.seed, trial.done.sim_time_s};
     for (bool fresh = false;; fresh = true) {
       try {
-        MetricResult result = ask_metric(guests_, experiment_.metrics[index], index,
-                                         {kept.in_memory(), &trial.world, robots, trial.seed}, budget_ns);
+        MetricResult result =
+            ask_metric(guests_, experiment_.metrics[index], index, finished, experiment_.limits.step_time_s);
         send_in_pieces(result, [&](const MetricResult& piece) { sender_.send(typed("metric", piece)); });
         std::move(result.events.begin(), result.events.end(), std::back_inserter(events));
         return;

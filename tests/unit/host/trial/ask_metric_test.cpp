@@ -37,6 +37,16 @@ bool is_refused(const MetricResult& result) {
   }
 }
 
+TEST_CASE("a metric has longer in a larger trial") {
+  const auto budget_s = [](std::uint32_t count, double sim_time_s) {
+    return static_cast<double>(metric_budget_ns(2.0, {{}, nullptr, count, 1, sim_time_s})) * 1e-9;
+  };
+  CHECK(budget_s(0, 60.0) == Approx(2.0));
+  CHECK(budget_s(4, 60.0) == Approx(2.0 * 1.44));
+  CHECK(budget_s(1000, 0.0) == Approx(2.0 * 51.0));
+  CHECK(budget_s(1000, 60.0) == Approx(2.0 * 111.0));
+}
+
 TEST_CASE("a metric gives only what it declares, and that once") {
   CHECK_FALSE(is_refused({0, {good, {"length", DMRP_SUBJECT_ROBOT, 1, {}, 1.0}}, {}}));
   MetricValue bad = good;

@@ -92,7 +92,7 @@ struct Stage {
 
   host::MetricResult measured() {
     const auto robots = static_cast<std::uint32_t>(variant->scenario.robots.size());
-    return ask_metric(*guests, experiment.metrics[0], 0, {trace->bytes(), variant.get(), robots, 1}, 1'000'000'000);
+    return ask_metric(*guests, experiment.metrics[0], 0, {trace->bytes(), variant.get(), robots, 1}, 1.0);
   }
 
   // The fault that ends the trial, or the measuring of it.
