@@ -292,7 +292,7 @@ Intervals hold together at 95 % (Bonferroni over the {len(self.settled)} stateme
 calculations and the hash that shows what stood before the run are in [`claims.toml`](../tests/paper/claims.toml). Listed tasks (per
 crowd) tell about that one task, and the listed mall is no typical one: planned by CBS, {self.untypical()}.
 
-The experiments have run twice on these tasks. At the first run (commit c2ea7000), with controllers that departed more from their
+The experiments have run twice on these tasks. At the first run, with controllers that departed more from their
 originals ([what was deleted](measured/ablation.md)), the statement on TEB was observed: -0.0207 [-0.0347, -0.00667]. All other
 verdicts were the same.
 
