@@ -3,6 +3,7 @@
 #pragma once
 
 #include "metrics/measure/bases.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 
@@ -23,6 +24,11 @@ class Neighbours final : public ActiveTimeMetric<TimeCount> {
                                .range(0.0, 1000.0)
                                .doc("R: robots at most this far away count, centre to centre");
 
+  void observe(const Sample& sample) override {
+    sort_robots(robots_, sample);
+    ActiveTimeMetric::observe(sample);
+  }
+
   void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "neighbours", &TimeCount::mean); }
 
  private:
@@ -30,10 +36,13 @@ class Neighbours final : public ActiveTimeMetric<TimeCount> {
     const Vec2 position = toolkit::position(sample.robots[robot].pose);
     const double squared_radius = radius_m * radius_m;
     std::int64_t count = -1;  // but for itself
-    for (const RobotSample& other : sample.robots)
-      count += toolkit::squared_distance(position, toolkit::position(other.pose)) <= squared_radius;
+    robots_.visit(position, radius_m, [&](std::size_t other) {
+      count += toolkit::squared_distance(position, toolkit::position(sample.robots[other].pose)) <= squared_radius;
+    });
     near.add(count, sample.dt_ns);
   }
+
+  toolkit::NeighbourGrid robots_;  // at the sample
 };
 
 }  // namespace dmrp::metrics

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <dmrp/plugin.hpp>
+#include <dmrp/toolkit/neighbour_grid.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 
 namespace dmrp::metrics {
@@ -62,6 +63,18 @@ inline double time_to_contact(const Moving& a, const Moving& b) {
   const double discriminant = approach * approach - toolkit::squared_norm(drift) * gap;
   if (discriminant < 0.0) return undefined;
   return gap / (approach + std::sqrt(discriminant));  // the smaller root, without cancellation
+}
+
+// The side of cells in which bodies are looked for, about their usual distance.
+constexpr double near_m = 2.0;
+
+inline void sort_robots(toolkit::NeighbourGrid& grid, const Sample& sample) {
+  grid.build(sample.robots.size(), near_m,
+             [&](std::size_t robot) { return toolkit::position(sample.robots[robot].pose); });
+}
+
+inline void sort_people(toolkit::NeighbourGrid& grid, const Sample& sample) {
+  grid.build(sample.people.size(), near_m, [&](std::size_t person) { return sample.people[person].position; });
 }
 
 }  // namespace dmrp::metrics

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <dmrp/plugin.hpp>
+#include <dmrp/toolkit/neighbour_grid.hpp>
 #include <dmrp/toolkit/vec2.hpp>
 #include <vector>
 
@@ -48,21 +50,41 @@ inline bool overlaps(const Steps& own, std::size_t i, const Steps& other, double
   return false;
 }
 
+// The longest way of a robot from one step to the next.
+inline double longest_move_m(const std::vector<Steps>& all) {
+  double longest = 0.0;
+  for (const Steps& steps : all)
+    for (std::size_t i = 1; i < steps.size(); ++i)
+      longest = std::max(longest, toolkit::squared_distance(steps[i - 1], steps[i]));
+  return std::sqrt(longest);
+}
+
 // Gives, by robot, the share of its waypoints that another robot's path overlaps: two robots overlap within
-// distance_m(a, b).
+// distance_m(a, b), at most widest_m.
 template <class Distance>
-std::vector<double> overlapping_shares(const std::vector<Steps>& all, Distance distance_m, std::size_t window) {
-  std::vector<double> shares;
-  for (std::size_t robot = 0; robot < all.size(); ++robot) {
-    std::size_t overlapping = 0;
-    for (std::size_t i = 0; i < all[robot].size(); ++i) {
+std::vector<double> overlapping_shares(const std::vector<Steps>& all, Distance distance_m, double widest_m,
+                                       std::size_t window) {
+  // who overlaps at a step is at most this far away at that step
+  const double reach_m = widest_m + static_cast<double>(window) * longest_move_m(all);
+  std::size_t longest = 0;
+  for (const Steps& steps : all) longest = std::max(longest, steps.size());
+  std::vector<std::size_t> overlapping(all.size(), 0);
+  toolkit::NeighbourGrid grid;
+  for (std::size_t i = 0; i < longest; ++i) {
+    grid.build(all.size(), std::max(reach_m, 0.5),
+               [&](std::size_t robot) { return all[robot][std::min(i, all[robot].size() - 1)]; });
+    for (std::size_t robot = 0; robot < all.size(); ++robot) {
+      if (i >= all[robot].size()) continue;
       bool near = false;
-      for (std::size_t other = 0; other < all.size() && !near; ++other)
-        near = other != robot && overlaps(all[robot], i, all[other], distance_m(robot, other), window);
-      overlapping += near;
+      grid.visit(all[robot][i], reach_m, [&](std::size_t other) {
+        near = near || (other != robot && overlaps(all[robot], i, all[other], distance_m(robot, other), window));
+      });
+      overlapping[robot] += near;
     }
-    shares.push_back(static_cast<double>(overlapping) / static_cast<double>(all[robot].size()));
   }
+  std::vector<double> shares;
+  for (std::size_t robot = 0; robot < all.size(); ++robot)
+    shares.push_back(static_cast<double>(overlapping[robot]) / static_cast<double>(all[robot].size()));
   return shares;
 }
 

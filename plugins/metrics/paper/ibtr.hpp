@@ -59,11 +59,12 @@ class Ibtr final : public ActiveTimeMetric<TimeMoments> {
 
   void observe(const Sample& sample) override {
     ActiveTimeMetric::observe(sample);
+    sort_robots(robots_, sample);
     const std::size_t encounters_before = encounters_.size();
     for (std::uint32_t a = 0; a < states_.size(); ++a) {
       if (!active_.in_step(a)) continue;
-      for (std::uint32_t b = a + 1; b < states_.size(); ++b) {
-        if (!active_.in_step(b)) continue;
+      for (const std::uint32_t b : robots_.near(toolkit::position(sample.robots[a].pose), widest_m_)) {
+        if (b <= a || !active_.in_step(b)) continue;
         const double squared_distance = toolkit::squared_distance(toolkit::position(sample.robots[a].pose),
                                                                   toolkit::position(sample.robots[b].pose));
         if (squared_distance > widest_m_ * widest_m_) continue;
@@ -168,8 +169,9 @@ class Ibtr final : public ActiveTimeMetric<TimeMoments> {
 
   // The thresholds are known only at the end. Until then the metric keeps the speeds of robots that are near each
   // other.
-  double widest_m_ = 0.0;      // of all distances
-  std::int64_t last_ns_ = -1;  // of the last sample; -1: there was none
+  double widest_m_ = 0.0;          // of all distances
+  toolkit::NeighbourGrid robots_;  // at the sample
+  std::int64_t last_ns_ = -1;      // of the last sample; -1: there was none
   std::vector<Spell> steps_;
   std::vector<Encounter> encounters_;  // by step, then by robots
 };

@@ -44,7 +44,7 @@ class Sto final : public FirstPlanMetric {
     const auto steps = static_cast<std::size_t>(*window);
     const auto shares = [&](double threshold_m) {
       return overlapping_shares(
-          all, [=](std::size_t, std::size_t) { return threshold_m; }, steps);
+          all, [=](std::size_t, std::size_t) { return threshold_m; }, threshold_m, steps);
     };
     give(sink, "sto", &mean_of_defined, shares(distance_m));
     give_curve(sink, "sto_by_distance", distances_m,

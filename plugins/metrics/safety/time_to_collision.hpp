@@ -2,6 +2,8 @@
 // time_to_collision.hpp: the time until a robot would hit somebody if all kept their velocities.
 #pragma once
 
+#include <limits>
+
 #include "metrics/measure/bases.hpp"
 #include "metrics/measure/bodies.hpp"
 
@@ -36,9 +38,16 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
       param("threshold_s", 1.5).unit("s").range(0.0, 1000.0).doc("a time to collision below this is a conflict");
 
   void observe(const Sample& sample) override {
-    robots_.clear();
+    bodies_.clear();
     for (std::size_t robot = 0; robot < states_.size(); ++robot)
-      robots_.push_back(moving(world().robots()[robot], sample.robots[robot]));
+      bodies_.push_back(moving(world().robots()[robot], sample.robots[robot]));
+    for (const Person& person : sample.people) bodies_.push_back(moving(person));
+    grid_.build(bodies_.size(), near_m, [this](std::size_t body) { return bodies_[body].disc.center; });
+    fastest_ = widest_m_ = 0.0;
+    for (const Moving& body : bodies_) {
+      fastest_ = std::max(fastest_, toolkit::norm(body.velocity));
+      widest_m_ = std::max(widest_m_, body.disc.radius_m);
+    }
     ActiveTimeMetric::observe(sample);
   }
 
@@ -49,17 +58,36 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
 
  private:
   void add_step(TimesToCollision& times, std::size_t robot, const Sample& sample) override {
-    if (robots_.size() + sample.people.size() < 2) return;
-    double soonest_s = undefined;
-    for (std::size_t other = 0; other < robots_.size(); ++other)
-      if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], robots_[other]));
-    for (const Person& person : sample.people)
-      soonest_s = std::fmin(soonest_s, time_to_contact(robots_[robot], moving(person)));
+    if (bodies_.size() < 2) return;
+    // later ones change neither value
+    const double latest_s = std::isnan(times.least_s) ? std::numeric_limits<double>::infinity()
+                                                      : std::max<double>(threshold_s, times.least_s);
+    const double soonest_s = soonest_until(robot, latest_s);
     times.least_s = std::fmin(times.least_s, soonest_s);
     times.low.add(soonest_s < threshold_s, sample.dt_ns);
   }
 
-  std::vector<Moving> robots_;  // at the sample
+  // The least time to a collision of the robot if that is at most latest_s; else that, a greater one or NaN.
+  double soonest_until(std::size_t robot, double latest_s) const {
+    const Moving& own = bodies_[robot];
+    // not 0, so that the reach grows where nobody moves
+    const double closing = std::max(0.1, toolkit::norm(own.velocity) + fastest_);
+    for (double horizon_s = std::max<double>(threshold_s, 1.0);; horizon_s *= 2.0) {
+      const double until_s = std::min(horizon_s, latest_s);
+      // times are rounded by much less than a thousandth
+      const double reach_m = 1.001 * (own.disc.radius_m + widest_m_ + closing * until_s);
+      double soonest_s = undefined;
+      const std::size_t visited = grid_.visit(own.disc.center, reach_m, [&](std::size_t other) {
+        if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(own, bodies_[other]));
+      });
+      if (soonest_s <= until_s || until_s == latest_s || visited == bodies_.size()) return soonest_s;
+    }
+  }
+
+  std::vector<Moving> bodies_;  // at the sample: robots, then people
+  toolkit::NeighbourGrid grid_;
+  double fastest_ = 0.0;   // of them all, m/s
+  double widest_m_ = 0.0;  // radius of them all
 };
 
 }  // namespace dmrp::metrics

@@ -31,7 +31,10 @@ class StoPhysical final : public FirstPlanMetric {
     const double window = std::floor(*window_s * 1e9 / static_cast<double>(period_ns) + rounding);
     const auto radius_m = [&](std::size_t robot) { return world().robots()[robot].footprint->radius_m; };
     const auto distance_m = [&](std::size_t a, std::size_t b) { return radius_m(a) + radius_m(b) + *gap_m; };
-    give(sink, "sto_physical", &mean_of_defined, overlapping_shares(all, distance_m, static_cast<std::size_t>(window)));
+    double widest_m = 0.0;
+    for (std::size_t robot = 0; robot < all.size(); ++robot) widest_m = std::max(widest_m, distance_m(robot, robot));
+    give(sink, "sto_physical", &mean_of_defined,
+         overlapping_shares(all, distance_m, widest_m, static_cast<std::size_t>(window)));
   }
 
  private:

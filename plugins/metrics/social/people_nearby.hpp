@@ -3,6 +3,7 @@
 #pragma once
 
 #include "metrics/measure/bases.hpp"
+#include "metrics/measure/bodies.hpp"
 
 namespace dmrp::metrics {
 
@@ -22,6 +23,11 @@ class PeopleNearby final : public ActiveTimeMetric<TimeCount> {
   Param<double> radius_m =
       param("radius_m", 5.0).unit("m").range(0.0, 1000.0).doc("people at most this far away, centre to centre, count");
 
+  void observe(const Sample& sample) override {
+    sort_people(people_, sample);
+    ActiveTimeMetric::observe(sample);
+  }
+
   void finish(const TrialEnd&, MetricSink& sink) override { give_mean(sink, "people_nearby", &TimeCount::mean); }
 
  private:
@@ -29,10 +35,13 @@ class PeopleNearby final : public ActiveTimeMetric<TimeCount> {
     const Vec2 position = toolkit::position(sample.robots[robot].pose);
     const double squared_radius = radius_m * radius_m;
     std::int64_t count = 0;
-    for (const Person& person : sample.people)
-      count += toolkit::squared_distance(position, person.position) <= squared_radius;
+    people_.visit(position, radius_m, [&](std::size_t person) {
+      count += toolkit::squared_distance(position, sample.people[person].position) <= squared_radius;
+    });
     near.add(count, sample.dt_ns);
   }
+
+  toolkit::NeighbourGrid people_;  // at the sample
 };
 
 }  // namespace dmrp::metrics

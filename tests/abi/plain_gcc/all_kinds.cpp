@@ -8,6 +8,7 @@
 #include <dmrp/toolkit/grid_line.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
 #include <dmrp/toolkit/navigation_field.hpp>
+#include <dmrp/toolkit/neighbour_grid.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/polyline.hpp>
 #include <dmrp/toolkit/random.hpp>
