@@ -3,7 +3,7 @@
 
 #include "host/errors/input_error.hpp"
 #include "host/files/read_file.hpp"
-#include "host/results/conditions.hpp"
+#include "host/findings/conditions.hpp"
 #include "host/results/database.hpp"
 
 namespace dmrp::host {

@@ -16,7 +16,7 @@ class TurnInPlace {
   // Toward the way.
   void begin(const std::vector<Vec2>& route, const Observation& now);
 
-  // The same for a holonomic robot, which keeps its heading in a trajectory, if it would be slow in the direction of its
+  // Begins it for a holonomic robot, which keeps its heading in a trajectory, if that would be slow in the direction of its
   // way, because it is slower backwards or sideways. Returns whether it turns.
   bool begin_if_slow(const std::vector<Vec2>& route, const Observation& now);
 

@@ -102,7 +102,7 @@ class NeighbourGrid {
     const std::int64_t first = line(center - reach_m);
     return {first, std::min(line(center + reach_m), first + side_ - 1)};
   }
-  // The same line on the torus.
+  // Winds a line of cells on the torus.
   std::int64_t wound(std::int64_t line) const { return line & (side_ - 1); }
 
   double cells_per_m_ = 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/results/conditions.hpp"
+#include "host/findings/conditions.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

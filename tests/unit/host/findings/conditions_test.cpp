@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/results/conditions.hpp"
+#include "host/findings/conditions.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,7 +7,7 @@ namespace conditions_test {
 
 using dmrp::host::conditions_words;
 
-TEST_CASE("conditions name what helps controllers, and what is swept", "[results]") {
+TEST_CASE("conditions name what helps controllers, and what is swept", "[findings]") {
   const char* alone =
       "[simulation]\ntracking = 'none'\nreplan_period_s = 0.0\n[navigation]\nroute = 'path'\nmonitor = false\n"
       "[recovery]\nretries = 0\n";
