@@ -211,6 +211,15 @@ class RunFiles {
   RunDirectory directory_;
 };
 
+// The default depends on the number of trials, which can have grown since the run began.
+void keep_traces_as_begun(const fs::path& directory, Experiment& experiment) {
+  if (experiment.traces_set || !fs::exists(directory / "results.sqlite")) return;
+  const Identity begun = read_manifest(directory / "manifest.json").identity;
+  const auto found = begun.find("record.traces");
+  for (std::size_t i = 0; found != begun.end() && i < trace_choices.size(); ++i)
+    if (found->second == fmt::format("\"{}\"", trace_choices[i])) experiment.traces = static_cast<RecordTraces>(i);
+}
+
 // The manifest of the first start, with what only the end of a run can tell.
 void complete_manifest(const fs::path& directory, std::span<const TrialRecord> trials) {
   Manifest manifest = read_manifest(directory / "manifest.json");
@@ -224,7 +233,8 @@ int run_command(const RunOptions& options) {
   signal(SIGPIPE, SIG_IGN);  // results are kept although nobody reads what is printed
   check_new_bundle(options.bundle);
   if (!options.trust) check_strangers(fs::absolute(options.experiment).parent_path());
-  const Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
+  Experiment experiment = load_experiment(options.experiment, options.trials, &probe_library);
+  if (options.resume) keep_traces_as_begun(options.out, experiment);
   check_planners(experiment, options.experiment);
   const std::vector<std::string> without_plan = check_plan_files(experiment);
   const bool is_silent = options.quiet || !options.progress.empty();

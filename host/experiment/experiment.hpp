@@ -64,6 +64,7 @@ struct Experiment {
   std::vector<core::RobotSettings> robot_types;  // [robot_type.NAME] of this file
   std::vector<SettingsSweep> sweeps{};
   RecordTraces traces = RecordTraces::all;
+  bool traces_set = false;   // by [record]; otherwise a run keeps what it chose when it began
   bool scans = false;        // traces record the lidar scans of every control tick
   bool annotations = false;  // traces record the annotations of plugins (dmrp.annotate/1)
   RunLimits limits;

@@ -214,7 +214,8 @@ void check_number_of_trials(const TomlTable& root, const Experiment& experiment)
 // Unless the experiment says so, a long run does not keep every trace: one of eight robots has some MB.
 void choose_traces(const TomlTable& root, Experiment& experiment) {
   const auto record = root.find_table("record");
-  if (record && record->find("traces")) return;
+  experiment.traces_set = record && record->find("traces");
+  if (experiment.traces_set) return;
   if (combinations(experiment).size() * experiment.trials > most_traced_trials) experiment.traces = RecordTraces::some;
 }
 

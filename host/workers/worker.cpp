@@ -424,7 +424,8 @@ int run_worker(const WorkerTask& task) {
     const ForkServer fork_server;  // before anything is known
     const auto setup = channel.receive();
     if (!setup) return 1;
-    const Experiment experiment = load_experiment(task.experiment, task.trials, source_of(*setup));
+    Experiment experiment = load_experiment(task.experiment, task.trials, source_of(*setup));
+    experiment.traces = setup->at("traces").get<RecordTraces>();
     Worker(experiment, task, fork_server, channel, sender).serve();
     return 0;
   } catch (const std::bad_alloc&) {

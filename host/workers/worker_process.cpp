@@ -35,7 +35,7 @@ ChildProcess start(const Experiment& experiment, const std::filesystem::path& sc
   return ChildProcess::execute(program);
 }
 
-// The plugins that the experiment uses: the worker loads no library.
+// The plugins that the experiment uses, since the worker loads no library, and what the run has chosen.
 nlohmann::json setup_of(const Experiment& experiment) {
   nlohmann::json libraries = nlohmann::json::object();
   for (const LibraryUse& library : experiment.libraries)
@@ -46,7 +46,7 @@ nlohmann::json setup_of(const Experiment& experiment) {
     for (const PluginUse& use : *uses)
       if (!use.plans.is_given() && added.insert(use.info.id).second)
         libraries[experiment.libraries[use.library].file.string()]["plugins"].push_back(use.info);
-  return {{"libraries", libraries}};
+  return {{"libraries", libraries}, {"traces", experiment.traces}};
 }
 
 }  // namespace

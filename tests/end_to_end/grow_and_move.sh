@@ -46,6 +46,14 @@ digest_of() { grep '^  "digest"' "$1/manifest.json"; }
 expect_refusal "--out $scratch/moved: has 3 trials of each combination, not 2: a run can grow, not shrink" \
   "$host" "$scratch/here/crossing.toml" --quiet --resume --trials 2 --out "$scratch/moved"
 
+# the default of traces changes at 100 trials, but not within a run
+run_here --trials 25 --out "$scratch/long"
+run_here --resume --trials 26 --out "$scratch/long"
+run_here --resume --trials 26 --out "$scratch/long"
+traces=$(find "$scratch/long/traces" -name '*.mcap' | wc -l)
+[[ $traces == 104 ]] || fail "a run that kept every trace should go on so, but 104 trials have $traces"
+expect_status 0 "$host" verify "$scratch/long"
+
 # shards from both
 run_here --shard 0/2 --out "$scratch/even"
 run_there --shard 1/2 --trials 2 --out "$scratch/odd"
