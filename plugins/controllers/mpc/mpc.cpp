@@ -105,11 +105,7 @@ Status Mpc::control(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan({{now, obstacles, footprint, share_evasion}, map}, *target);
   if (!solver_iterations) {
     trajectory_.clear();
-    if (is_standing) {
-      // beside a wall, where it has made room, a trajectory that still has to turn comes closer to that first
-      if (make_room && !is_car_like(now.limits)) turn_.begin(route_, now);
-      return Status::ok;
-    }
+    if (is_standing) return Status::ok;
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
