@@ -46,21 +46,20 @@ Status CollisionFreeSpeed::start(const Start& start) {
   const World& world = start.world;
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   side_preference_.start(start.seed);
-  start_people(start, to_robots);
-  neighbors_.start(world->lower, world->upper, neighbor_cell_m);
+  start_people(start, to_robots, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, to_robots.awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
+  walkers_.gather(crowd, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 
   const double step_s = seconds(crowd.dt_ns);
   for (const Walker& walker : walkers_.by_place()) {
-    find_neighbors(walker, crowd.people);
+    find_neighbors(walker);
     const Vec2 along = direction(walker);
     motions[walker.slot].velocity =
         without_wall_contact(speed_along(along, walker, step_s) * along, walker.person, step_s);
@@ -69,18 +68,16 @@ Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
 }
 
 // All bodies whose repulsion counts or that can be in the way, and the walls.
-void CollisionFreeSpeed::find_neighbors(const Walker& walker, const Span<Person>& people) {
+void CollisionFreeSpeed::find_neighbors(const Walker& walker) {
   const Person& person = walker.person;
   near_.clear();
   const double largest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + largest_radius_m + largest_gap_m;
-  for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
-    const double weight = walker.weight_of(*other);
-    if (other->slot == walker.slot || !(squared_distance > 0.0) || !(weight > 0.0)) continue;
-    const double sum_of_radii_m = person.radius_m + other->radius_m;
-    near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     weight, walkers_.right_of_way().ignores(walker.slot, *other, people)});
-  }
+  walkers_.visit_neighbors(walker, reach_m, [&](const Neighbor& other) {
+    const double sum_of_radii_m = person.radius_m + other.body->radius_m;
+    near_.push_back({other.body->position - person.position, std::sqrt(other.squared_distance) - sum_of_radii_m,
+                     sum_of_radii_m, other.weight, other.is_ignored});
+  });
   walls_.nearest_points(person.position, wall_points_);
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "pedestrians/crowd/crowd_model.hpp"
-#include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/side_preference.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
 
@@ -44,17 +43,16 @@ class CollisionFreeSpeed final : public CrowdModel {
     double gap_m;
     double reach_m;  // sum of the radii
     double weight;
-    bool is_ignored;  // by the right of way: does not turn the person
+    bool is_ignored;  // does not turn the person
   };
 
-  void find_neighbors(const Walker& walker, const Span<Person>& people);
+  void find_neighbors(const Walker& walker);
   Vec2 direction(const Walker& walker);
   double speed_along(Vec2 direction, const Walker& walker, double step_s) const;
   Vec2 without_wall_contact(Vec2 velocity, const Person& person, double step_s) const;
 
   double neighbor_reach_m_ = 0.0;  // the repulsion is negligible beyond this gap
   SidePreference side_preference_;
-  NeighborGrid neighbors_;
   WallGrid walls_;
   std::vector<Near> near_;              // of the current person
   std::vector<WallPoint> wall_points_;  // of the current person

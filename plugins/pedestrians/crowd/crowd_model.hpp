@@ -33,10 +33,12 @@ class CrowdModel : public PedestrianModel {
             share("threatening_share", "share of people who get in a robot's way when they see it")};
   }
 
-  void start_people(const Start& start, const RobotResponse& to_robots) {
+  // `cell_m`: of the grid of neighbours.
+  void start_people(const Start& start, const RobotResponse& to_robots, double cell_m) {
     ways_.start(walking_grid(extension<dmrp_walking_grid>(), start.world));
-    walkers_.start(start.seed, ways_.grid(),
-                   {to_robots.surprised, to_robots.curious, to_robots.scared, to_robots.threatening});
+    walkers_.grid.start(start.world->lower, start.world->upper, cell_m);
+    walkers_.reactions.start(start.seed, ways_.grid(), to_robots.awareness,
+                             {to_robots.surprised, to_robots.curious, to_robots.scared, to_robots.threatening});
   }
 
   WayFinder ways_;
