@@ -53,7 +53,7 @@ Status CollisionFreeSpeed::start(const Start& start) {
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, [&](std::uint32_t slot, const Person& person) {
+  gather(crowd, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 

@@ -42,10 +42,6 @@ Lasting lasting(std::uint32_t reaction) {
   }
 }
 
-bool is_reaction(std::uint32_t reaction) {
-  return reaction >= DMRP_REACTION_SURPRISED && reaction <= DMRP_REACTION_THREATENING;
-}
-
 Wish walk_to(const Person& person, Vec2 place, double speed) {
   const Vec2 apart = place - person.position;
   const double near = std::min(toolkit::norm(apart), 1.0);  // slows down over the last metre
@@ -96,7 +92,7 @@ bool RobotReactions::sees(const Person& person, Vec2 way, const Agent& robot) co
 
 std::optional<Wish> RobotReactions::answer(std::uint32_t reaction, const Person& person, Vec2 way,
                                            const Span<Agent>& robots, double step_s) {
-  if (!is_reaction(reaction)) return std::nullopt;
+  if (!is_answer(reaction)) return std::nullopt;
   const Agent* const robot = nearest(robots, [&](const Agent& each) {
     return toolkit::squared_distance(person.position, toolkit::position(each.pose));
   });

@@ -36,10 +36,17 @@ struct Wish {
   double robot_weight = 1.0;  // of the influence of robots
 };
 
+// Whether DMRP_REACTION_* is a behaviour of these.
+inline bool is_answer(std::uint32_t reaction) {
+  return reaction >= DMRP_REACTION_SURPRISED && reaction <= DMRP_REACTION_THREATENING;
+}
+
 class RobotReactions {
  public:
   // The grid's arrays must outlive this object. Throws std::invalid_argument if the shares add up to more than 1.
   void start(std::uint64_t seed, const toolkit::GridView& grid, const ReactionShares& shares);
+
+  bool any_share() const { return any_share_; }
 
   // DMRP_REACTION_*: the person's own, or one drawn by the shares.
   std::uint32_t of(const Person& person) const;

@@ -108,7 +108,7 @@ Status SocialForce::start(const Start& start) {
 }
 
 Status SocialForce::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
+  gather(crowd, [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);

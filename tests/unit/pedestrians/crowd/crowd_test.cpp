@@ -158,7 +158,7 @@ TEST_CASE("walkers are the people in the order of the grid, with their direction
   const double awareness = GENERATE(0.0, 0.5);
   Walkers walkers;
   walkers.grid.start({0.0, 0.0}, {20.0, 20.0}, 1.0);
-  walkers.reactions.start(1, {}, awareness, {});
+  walkers.reactions.start(1, {}, true, awareness, {});
   walkers.gather(dmrp::Crowd(crowd), [](std::uint32_t slot, const dmrp_person& person) {
     return dmrp_vec2{static_cast<double>(slot), person.position.x};
   });
