@@ -43,11 +43,12 @@ class CollisionFreeSpeed final : public CrowdModel {
     double gap_m;
     double reach_m;  // sum of the radii
     double weight;
-    bool is_ignored;  // does not turn the person
+    bool is_ignored;  // by the right of way
   };
 
   void find_neighbors(const Walker& walker);
-  Vec2 direction(const Walker& walker);
+  Vec2 wish(const Walker& walker, Vec2 moved);
+  double short_of_turning(double speed, Vec2 here, const Walker& walker, double step_s);
   double speed_along(Vec2 direction, const Walker& walker, double step_s) const;
   Vec2 without_wall_contact(Vec2 velocity, const Person& person, double step_s) const;
 
@@ -56,6 +57,7 @@ class CollisionFreeSpeed final : public CrowdModel {
   WallGrid walls_;
   std::vector<Near> near_;              // of the current person
   std::vector<WallPoint> wall_points_;  // of the current person
+  std::vector<WallPoint> walls_there_;  // of the current person, once moved
 };
 
 }  // namespace dmrp::pedestrians

@@ -51,8 +51,8 @@ class RobotReactions {
   // DMRP_REACTION_*: the person's own, or one drawn by the shares.
   std::uint32_t of(const Person& person) const;
 
-  // Call begin_step() at every step, then answer() once for each person with of(person): nothing if the person walks on
-  // along `way`.
+  // Call begin_step() at every step, then answer() once for each person, with of(person): nothing if the person walks
+  // on along `way`.
   void begin_step() { forget_unseen(encounters_); }
   std::optional<Wish> answer(std::uint32_t reaction, const Person& person, Vec2 way, const Span<Agent>& robots,
                              double step_s);

@@ -271,6 +271,20 @@ TEST_CASE("a blocked person ignores people ahead who have farther to go") {
   CHECK_FALSE(ignores(0, 2));  // a person behind
   const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, no_slot};
   CHECK_FALSE(right_of_way.ignores(0, robot, {people.data(), people.size()}));
+
+  const auto walk_at = [&](double share) {
+    for (int step = 0; step < 1000; ++step) {
+      right_of_way.begin_step();
+      for (dmrp_person& each : people) {
+        each.velocity = {-share * each.desired_speed, 0.0};
+        right_of_way.update(each, {-1.0, 0.0}, 0.02);
+      }
+    }
+    return ignores(0, 1);
+  };
+  CHECK(walk_at(0.05));  // shuffles on
+  CHECK_FALSE(walk_at(0.2));
+  CHECK_FALSE(walk_at(0.05));
 }
 
 }  // namespace crowd_test
