@@ -46,56 +46,60 @@ Status CollisionFreeSpeed::start(const Start& start) {
   const World& world = start.world;
   neighbor_reach_m_ = fading_gap(neighbor_strength, neighbor_range);
   side_preference_.start(start.seed);
-  start_people(start, to_robots);
-  neighbors_.start(world->lower, world->upper, neighbor_cell_m);
+  start_people(start, to_robots, neighbor_cell_m);
   const double wall_reach_m = largest_radius_m + std::max(fading_gap(wall_strength, wall_range), longest_step_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
 
 Status CollisionFreeSpeed::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, to_robots.awareness, neighbors_, [&](std::uint32_t slot, const Person& person) {
+  gather(crowd, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 
   const double step_s = seconds(crowd.dt_ns);
   for (const Walker& walker : walkers_.by_place()) {
-    find_neighbors(walker, crowd.people);
-    const Vec2 along = direction(walker);
-    motions[walker.slot].velocity =
-        without_wall_contact(speed_along(along, walker, step_s) * along, walker.person, step_s);
+    find_neighbors(walker);
+    const Vec2 here = wish(walker, {0.0, 0.0});
+    const Vec2 along = toolkit::normalized(here);
+    const double speed = short_of_turning(speed_along(along, walker, step_s), here, walker, step_s);
+    motions[walker.slot].velocity = without_wall_contact(speed * along, walker.person, step_s);
   }
   return Status::ok;
 }
 
 // All bodies whose repulsion counts or that can be in the way, and the walls.
-void CollisionFreeSpeed::find_neighbors(const Walker& walker, const Span<Person>& people) {
+void CollisionFreeSpeed::find_neighbors(const Walker& walker) {
   const Person& person = walker.person;
   near_.clear();
   const double largest_gap_m = std::max(neighbor_reach_m_, person.desired_speed * time_gap);
   const double reach_m = person.radius_m + largest_radius_m + largest_gap_m;
-  for (const auto& [squared_distance, other] : neighbors_.near(person.position, reach_m)) {
-    const double weight = walker.weight_of(*other);
-    if (other->slot == walker.slot || !(squared_distance > 0.0) || !(weight > 0.0)) continue;
-    const double sum_of_radii_m = person.radius_m + other->radius_m;
-    near_.push_back({other->position - person.position, std::sqrt(squared_distance) - sum_of_radii_m, sum_of_radii_m,
-                     weight, walkers_.right_of_way().ignores(walker.slot, *other, people)});
-  }
+  walkers_.visit_neighbors(walker, reach_m, [&](const Neighbor& other) {
+    const double sum_of_radii_m = person.radius_m + other.body->radius_m;
+    near_.push_back({other.body->position - person.position, std::sqrt(other.squared_distance) - sum_of_radii_m,
+                     sum_of_radii_m, other.weight, other.is_ignored});
+  });
   walls_.nearest_points(person.position, wall_points_);
 }
 
-// The desired direction, turned away from bodies and walls: a unit vector, or zero.
-Vec2 CollisionFreeSpeed::direction(const Walker& walker) {
+// The desired direction plus the repulsion of bodies and walls (equation 4), once the person has moved. The person
+// walks along it.
+Vec2 CollisionFreeSpeed::wish(const Walker& walker, Vec2 moved) {
   Vec2 sum = walker.way;
   for (const Near& other : near_) {
-    if (other.is_ignored || other.gap_m > neighbor_reach_m_) continue;
-    const double influence = other.weight * repulsion(neighbor_strength, neighbor_range, other.gap_m);
-    sum -= other.apart * (influence / (other.gap_m + other.reach_m));
+    if (other.gap_m > neighbor_reach_m_) continue;
+    const Vec2 apart = other.apart - moved;
+    const double distance_m = toolkit::norm(apart);
+    const double gap_m = distance_m - other.reach_m;
+    // ignored people turn the person the less the straighter ahead they are, so that nothing jumps at their sides
+    const double kept = other.is_ignored ? 1.0 - std::max(toolkit::dot(walker.way, apart) / distance_m, 0.0) : 1.0;
+    sum -= apart * (kept * other.weight * repulsion(neighbor_strength, neighbor_range, gap_m) / distance_m);
   }
-  sum += push_of_walls(wall_points_, wall_range, [&](double distance_m) {
-    return repulsion(wall_strength, wall_range, distance_m - walker.person.radius_m);
-  });
-  return toolkit::normalized(sum);
+  walls_there_ = wall_points_;
+  for (WallPoint& wall : walls_there_) wall.distance_m += toolkit::dot(wall.away, moved);
+  return sum + push_of_walls(walls_there_, wall_range, [&](double distance_m) {
+           return repulsion(wall_strength, wall_range, distance_m - walker.person.radius_m);
+         });
 }
 
 double CollisionFreeSpeed::speed_along(Vec2 direction, const Walker& walker, double step_s) const {
@@ -109,6 +113,16 @@ double CollisionFreeSpeed::speed_along(Vec2 direction, const Walker& walker, dou
     speed = other.is_ignored && is_forward ? std::max(permitted, std::min(speed, shuffling_speed)) : permitted;
   }
   return speed;
+}
+
+// Where repulsion and desired direction cancel, the direction jumps to its opposite. Whoever steps over such a place
+// turns back in the next step, and so on; in the limit of short steps they stay there. So nobody steps over it: each
+// makes half of the way to it, because the neighbours move too. `here`: wish() before the step.
+double CollisionFreeSpeed::short_of_turning(double speed, Vec2 here, const Walker& walker, double step_s) {
+  const Vec2 along = toolkit::normalized(here);
+  const double strength = toolkit::norm(here);
+  const double strength_there = toolkit::dot(wish(walker, speed * step_s * along), along);
+  return strength_there < 0.0 ? speed * 0.5 * strength / (strength - strength_there) : speed;
 }
 
 // Removes the part of the velocity that would lead into a wall within the step. The repulsion alone cannot prevent

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "pedestrians/crowd/crowd_model.hpp"
-#include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/side_preference.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
 
@@ -44,20 +43,21 @@ class CollisionFreeSpeed final : public CrowdModel {
     double gap_m;
     double reach_m;  // sum of the radii
     double weight;
-    bool is_ignored;  // by the right of way: does not turn the person
+    bool is_ignored;  // by the right of way
   };
 
-  void find_neighbors(const Walker& walker, const Span<Person>& people);
-  Vec2 direction(const Walker& walker);
+  void find_neighbors(const Walker& walker);
+  Vec2 wish(const Walker& walker, Vec2 moved);
+  double short_of_turning(double speed, Vec2 here, const Walker& walker, double step_s);
   double speed_along(Vec2 direction, const Walker& walker, double step_s) const;
   Vec2 without_wall_contact(Vec2 velocity, const Person& person, double step_s) const;
 
   double neighbor_reach_m_ = 0.0;  // the repulsion is negligible beyond this gap
   SidePreference side_preference_;
-  NeighborGrid neighbors_;
   WallGrid walls_;
   std::vector<Near> near_;              // of the current person
   std::vector<WallPoint> wall_points_;  // of the current person
+  std::vector<WallPoint> walls_there_;  // of the current person, once moved
 };
 
 }  // namespace dmrp::pedestrians

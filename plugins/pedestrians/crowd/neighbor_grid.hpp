@@ -16,7 +16,6 @@ struct Body {
   Vec2 position;
   Vec2 velocity;
   double radius_m;
-  double weight;       // of its influence on others; that of a robot depends on them (Walker::weight_of)
   std::uint32_t slot;  // of a person; no_slot for a robot
 };
 

@@ -7,7 +7,10 @@ namespace dmrp::pedestrians {
 
 namespace {
 
-constexpr double blocked_speed_share = 0.03;  // of the desired speed
+// Shares of the desired speed: below the first people become blocked, above the second they are free again. With one
+// threshold for both, a step ahead would free them, and the others would turn them back.
+constexpr double blocked_speed_share = 0.03;
+constexpr double free_speed_share = 0.09;
 constexpr double time_constant_s = 5.0;
 
 }  // namespace
@@ -29,7 +32,8 @@ void RightOfWay::update(const Person& person, Vec2 way, double step_s) {
   }
   progress.mean_speed +=
       (toolkit::dot(person.velocity, way) - progress.mean_speed) * std::min(step_s / time_constant_s, 1.0);
-  progress.is_blocked = progress.mean_speed < blocked_speed_share * person.desired_speed;
+  const double share = progress.is_blocked ? free_speed_share : blocked_speed_share;
+  progress.is_blocked = progress.mean_speed < share * person.desired_speed;
   progress.way = way;
   progress_.push_back(progress);
 }

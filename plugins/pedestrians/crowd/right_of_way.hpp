@@ -7,8 +7,8 @@
 // moves first.
 //
 // A person is *blocked* when the exponentially weighted mean of their progress (time constant 5 s) falls below 3 % of
-// the desired speed. A person who stops completely counts as blocked after 17 s; the stop-and-go waves of a dense crowd
-// are shorter.
+// the desired speed, until it rises above 9 %. A person who stops completely counts as blocked after 17 s; the
+// stop-and-go waves of a dense crowd are shorter.
 #pragma once
 
 #include <cstddef>

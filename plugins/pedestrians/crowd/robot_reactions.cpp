@@ -42,29 +42,13 @@ Lasting lasting(std::uint32_t reaction) {
   }
 }
 
-bool is_reaction(std::uint32_t reaction) {
-  return reaction >= DMRP_REACTION_SURPRISED && reaction <= DMRP_REACTION_THREATENING;
-}
-
-const Agent* nearest(const Person& person, const Span<Agent>& robots) {
-  const Agent* found = nullptr;
-  double least = 0.0;
-  for (const Agent& robot : robots) {
-    const double squared = toolkit::squared_distance(person.position, toolkit::position(robot.pose));
-    if (found != nullptr && squared >= least) continue;
-    found = &robot;
-    least = squared;
-  }
-  return found;
-}
-
-RobotReactions::Wish walk_to(const Person& person, Vec2 place, double speed) {
+Wish walk_to(const Person& person, Vec2 place, double speed) {
   const Vec2 apart = place - person.position;
   const double near = std::min(toolkit::norm(apart), 1.0);  // slows down over the last metre
   return {toolkit::normalized(apart), std::max(speed * near, standing_speed) * person.desired_speed};
 }
 
-RobotReactions::Wish wish_of(std::uint32_t reaction, const Person& person, const Agent& robot) {
+Wish wish_of(std::uint32_t reaction, const Person& person, const Agent& robot) {
   const Vec2 at = toolkit::position(robot.pose);
   const Vec2 toward = toolkit::normalized(at - person.position);
   const double touching_m = person.radius_m + robot.radius_m;
@@ -100,29 +84,18 @@ std::uint32_t RobotReactions::of(const Person& person) const {
   return drawn < shares_.threatening ? DMRP_REACTION_THREATENING : DMRP_REACTION_UNSPECIFIED;
 }
 
-// Forgets people who have left.
-void RobotReactions::begin_step() {
-  for (auto one = encounters_.begin(); one != encounters_.end();) {
-    if (!one->second.is_seen) {
-      one = encounters_.erase(one);
-    } else {
-      one->second.is_seen = false;
-      ++one;
-    }
-  }
-}
-
 bool RobotReactions::sees(const Person& person, Vec2 way, const Agent& robot) const {
   const Vec2 at = toolkit::position(robot.pose);
   return toolkit::distance(person.position, at) <= sight_m && toolkit::dot(way, at - person.position) > 0.0 &&
          toolkit::line_is_free(grid_, person.position, at);
 }
 
-std::optional<RobotReactions::Wish> RobotReactions::wish(const Person& person, Vec2 way, const Span<Agent>& robots,
-                                                         double step_s) {
-  const std::uint32_t reaction = of(person);
-  if (!is_reaction(reaction)) return std::nullopt;
-  const Agent* const robot = nearest(person, robots);
+std::optional<Wish> RobotReactions::answer(std::uint32_t reaction, const Person& person, Vec2 way,
+                                           const Span<Agent>& robots, double step_s) {
+  if (!is_answer(reaction)) return std::nullopt;
+  const Agent* const robot = nearest(robots, [&](const Agent& each) {
+    return toolkit::squared_distance(person.position, toolkit::position(each.pose));
+  });
   if (robot == nullptr) return std::nullopt;
   auto known = encounters_.find(person.id);
   if (known == encounters_.end()) {

@@ -15,8 +15,9 @@
 #include <cstdint>
 #include <dmrp/cpp/pedestrian_model.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
-#include <map>
 #include <optional>
+
+#include "pedestrians/crowd/encounters.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -28,23 +29,33 @@ struct ReactionShares {
   double threatening = 0.0;
 };
 
+// What a person wants in this step.
+struct Wish {
+  Vec2 way;                   // a unit vector; zero on the target
+  double speed;               // m/s
+  double robot_weight = 1.0;  // of the influence of robots
+};
+
+// Whether DMRP_REACTION_* is a behaviour of these.
+inline bool is_answer(std::uint32_t reaction) {
+  return reaction >= DMRP_REACTION_SURPRISED && reaction <= DMRP_REACTION_THREATENING;
+}
+
 class RobotReactions {
  public:
-  // A desired direction and speed.
-  struct Wish {
-    Vec2 way;
-    double speed;
-  };
-
   // The grid's arrays must outlive this object. Throws std::invalid_argument if the shares add up to more than 1.
   void start(std::uint64_t seed, const toolkit::GridView& grid, const ReactionShares& shares);
+
+  bool any_share() const { return any_share_; }
 
   // DMRP_REACTION_*: the person's own, or one drawn by the shares.
   std::uint32_t of(const Person& person) const;
 
-  // Call begin_step() at every step, then wish() once for each person: nothing if the person walks on along `way`.
-  void begin_step();
-  std::optional<Wish> wish(const Person& person, Vec2 way, const Span<Agent>& robots, double step_s);
+  // Call begin_step() at every step, then answer() once for each person, with of(person): nothing if the person walks
+  // on along `way`.
+  void begin_step() { forget_unseen(encounters_); }
+  std::optional<Wish> answer(std::uint32_t reaction, const Person& person, Vec2 way, const Span<Agent>& robots,
+                             double step_s);
 
  private:
   // Of a person who has seen a robot.
@@ -60,7 +71,7 @@ class RobotReactions {
   toolkit::GridView grid_;
   ReactionShares shares_;
   bool any_share_ = false;
-  std::map<std::uint64_t, Encounter> encounters_;  // by person
+  Encounters<Encounter> encounters_;
 };
 
 }  // namespace dmrp::pedestrians

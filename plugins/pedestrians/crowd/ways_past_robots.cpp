@@ -36,18 +36,6 @@ double gap(const Person& person, const Agent& robot) {
   return toolkit::distance(person.position, toolkit::position(robot.pose)) - person.radius_m - robot.radius_m;
 }
 
-const Agent* nearest_by_gap(const Person& person, const Span<Agent>& robots) {
-  const Agent* found = nullptr;
-  double least_m = 0.0;
-  for (const Agent& robot : robots) {
-    const double gap_m = gap(person, robot);
-    if (found != nullptr && gap_m >= least_m) continue;
-    found = &robot;
-    least_m = gap_m;
-  }
-  return found;
-}
-
 // Beside the robot, as seen by the person.
 Vec2 beside(const Person& person, const Agent& robot, double side) {
   const Vec2 at = toolkit::position(robot.pose);
@@ -63,23 +51,11 @@ void WaysPastRobots::start(std::uint64_t seed, const toolkit::GridView& grid) {
   encounters_.clear();
 }
 
-// Forgets people who have left.
-void WaysPastRobots::begin_step() {
-  for (auto one = encounters_.begin(); one != encounters_.end();) {
-    if (!one->second.is_seen) {
-      one = encounters_.erase(one);
-    } else {
-      one->second.is_seen = false;
-      ++one;
-    }
-  }
-}
-
 Vec2 WaysPastRobots::direction(const Person& person, Vec2 way, const Span<Agent>& robots, double step_s) {
   const bool is_new = encounters_.count(person.id) == 0;
   const bool is_slow = toolkit::dot(person.velocity, way) < slow_share * person.desired_speed;
   if (is_new && !is_slow) return way;  // most people
-  const Agent* const robot = nearest_by_gap(person, robots);
+  const Agent* const robot = nearest(robots, [&](const Agent& each) { return gap(person, each); });
   if (robot == nullptr || gap(person, *robot) > (is_new ? near_m : past_m)) return way;
 
   Encounter& encounter = encounters_[person.id];

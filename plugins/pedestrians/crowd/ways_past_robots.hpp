@@ -13,7 +13,8 @@
 #include <cstdint>
 #include <dmrp/cpp/pedestrian_model.hpp>
 #include <dmrp/toolkit/grid_view.hpp>
-#include <map>
+
+#include "pedestrians/crowd/encounters.hpp"
 
 namespace dmrp::pedestrians {
 
@@ -24,7 +25,7 @@ class WaysPastRobots {
 
   // Call begin_step() at every step, then direction() once for each person: the desired direction among the robots, a
   // unit vector, given the one without them.
-  void begin_step();
+  void begin_step() { forget_unseen(encounters_); }
   Vec2 direction(const Person& person, Vec2 way, const Span<Agent>& robots, double step_s);
 
  private:
@@ -48,7 +49,7 @@ class WaysPastRobots {
 
   std::uint64_t seed_ = 0;
   toolkit::GridView grid_;
-  std::map<std::uint64_t, Encounter> encounters_;  // by person
+  Encounters<Encounter> encounters_;
 };
 
 }  // namespace dmrp::pedestrians

@@ -40,15 +40,14 @@ Descriptor Orca::describe() {
 Status Orca::start(const Start& start) {
   const World& world = start.world;
   side_preference_.start(start.seed);
-  start_people(start, to_robots);
-  grid_.start(world->lower, world->upper, cell_per_reach * neighbor_distance);
+  start_people(start, to_robots, cell_per_reach * neighbor_distance);
   walls_.start(world.segments(), world->lower, world->upper, largest_speed_m_s * time_horizon_obst + largest_radius_m);
   neighbors_.resize(static_cast<std::size_t>(max_neighbors));
   return Status::ok;
 }
 
 Status Orca::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, to_robots.awareness, grid_, [&](std::uint32_t slot, const Person& person) {
+  gather(crowd, [&](std::uint32_t slot, const Person& person) {
     return side_preference_.apply(slot, person, ways_.direction(slot, person));
   });
 
@@ -62,9 +61,8 @@ Status Orca::step(const Crowd& crowd, Motions& motions) {
 
     const std::size_t neighbor_count = find_neighbors(walker, crowd.people);
     for (std::size_t i = 0; i < neighbor_count; ++i) {
-      const Body& other = *neighbors_[i].body;
-      if (walkers_.right_of_way().ignores(slot, other, crowd.people)) continue;
-      const HalfPlane plane = permitted_by(other, walker, step_s);
+      if (neighbors_[i].is_ignored) continue;
+      const HalfPlane plane = permitted_by(neighbors_[i], person, step_s);
       // most planes contain every velocity up to the cap
       if (violation(plane, {0.0, 0.0}) > -max_speed) planes_.push_back(plane);
     }
@@ -73,13 +71,12 @@ Status Orca::step(const Crowd& crowd, Motions& motions) {
   return Status::ok;
 }
 
-HalfPlane Orca::permitted_by(const Body& other, const Walker& walker, double step_s) const {
-  const Person& person = walker.person;
-  const double weight = walker.weight_of(other);
-  const reciprocal::Encounter encounter = {other.position - person.position, person.velocity - other.velocity,
-                                           person.radius_m + other.radius_m};
-  const double horizon_s = std::max(weight * time_horizon, step_s);
-  return give_way(reciprocal::escape(encounter, horizon_s, step_s), person.velocity, even_share * weight);
+HalfPlane Orca::permitted_by(const Neighbor& other, const Person& person, double step_s) const {
+  const Body& body = *other.body;
+  const reciprocal::Encounter encounter = {body.position - person.position, person.velocity - body.velocity,
+                                           person.radius_m + body.radius_m};
+  const double horizon_s = std::max(other.weight * time_horizon, step_s);
+  return give_way(reciprocal::escape(encounter, horizon_s, step_s), person.velocity, even_share * other.weight);
 }
 
 std::size_t Orca::find_neighbors(const Walker& walker, const Span<Person>& people) {
@@ -87,24 +84,22 @@ std::size_t Orca::find_neighbors(const Walker& walker, const Span<Person>& peopl
   const auto id = [&](const Body* body) {
     return body->slot == no_slot ? std::numeric_limits<std::uint64_t>::max() : people[body->slot].id;
   };
-  const auto comes_before = [&](const NearBody& a, const NearBody& b) {
+  const auto comes_before = [&](const Neighbor& a, const Neighbor& b) {
     return a.squared_distance < b.squared_distance ||
            (a.squared_distance == b.squared_distance && id(a.body) < id(b.body));
   };
 
   std::size_t count = 0;
-  for (const NearBody& found : grid_.near(walker.person.position, neighbor_distance)) {
-    if (found.body->slot == walker.slot || !(found.squared_distance > 0.0)) continue;
-    if (!(walker.weight_of(*found.body) > 0.0)) continue;
+  walkers_.visit_neighbors(walker, neighbor_distance, [&](const Neighbor& found) {
     if (count < most) {
       ++count;
     } else if (!comes_before(found, neighbors_[most - 1])) {
-      continue;
+      return;
     }
     std::size_t place = count - 1;
     for (; place > 0 && comes_before(found, neighbors_[place - 1]); --place) neighbors_[place] = neighbors_[place - 1];
     neighbors_[place] = found;
-  }
+  });
   return count;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "pedestrians/crowd/crowd_model.hpp"
-#include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/side_preference.hpp"
 #include "pedestrians/orca/wall_obstacles.hpp"
 #include "reciprocal/half_plane.hpp"
@@ -39,14 +38,13 @@ class Orca final : public CrowdModel {
  private:
   // Fills neighbors_ and returns their number.
   std::size_t find_neighbors(const Walker& walker, const Span<Person>& people);
-  reciprocal::HalfPlane permitted_by(const Body& other, const Walker& walker, double step_s) const;
+  reciprocal::HalfPlane permitted_by(const Neighbor& other, const Person& person, double step_s) const;
   static Vec2 preferred_velocity(Vec2 way, const Person& person, double step_s);
 
   SidePreference side_preference_;
-  NeighborGrid grid_;
   WallObstacles walls_;
   reciprocal::VelocityProgram program_;
-  std::vector<NearBody> neighbors_;  // nearest first; by id where distances are equal
+  std::vector<Neighbor> neighbors_;  // nearest first; by id where distances are equal
   std::vector<reciprocal::HalfPlane> planes_;
 };
 

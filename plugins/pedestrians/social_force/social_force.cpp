@@ -101,16 +101,14 @@ Status SocialForce::start(const Start& start) {
   const World& world = start.world;
   shape_ = {lambda, gamma, n, n_prime};
   seed_ = start.seed;
-  start_people(start, to_robots);
+  start_people(start, to_robots, neighbor_cell_m);
   groups_.start();
-  neighbors_.start(world->lower, world->upper, neighbor_cell_m);
   walls_.start(world.segments(), world->lower, world->upper, wall_reach_m);
   return Status::ok;
 }
 
 Status SocialForce::step(const Crowd& crowd, Motions& motions) {
-  walkers_.gather(crowd, to_robots.awareness, neighbors_,
-                  [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
+  gather(crowd, [&](std::uint32_t slot, const Person& person) { return ways_.direction(slot, person); });
   groups_.update(crowd.people);
 
   const double dt = seconds(crowd.dt_ns);
@@ -149,11 +147,9 @@ double SocialForce::repulsion(double gap_m) const {
 Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& people, double& speed) {
   const auto& [person, way, slot, robot_weight] = walker;
   Vec2 sum = {0.0, 0.0};
-  for (const auto& [squared_distance, body] : neighbors_.near(person.position, neighbor_reach_m)) {
-    const Body& other = *body;
-    const double weight = walker.weight_of(other);
-    if (other.slot == slot || !(squared_distance > 0.0) || !(weight > 0.0)) continue;
-    const double distance_m = std::sqrt(squared_distance);
+  walkers_.visit_neighbors(walker, neighbor_reach_m, [&, &person = person, &way = way](const Neighbor& neighbor) {
+    const Body& other = *neighbor.body;
+    const double distance_m = std::sqrt(neighbor.squared_distance);
     const Vec2 apart = other.position - person.position;
     const Vec2 toward = apart / distance_m;
     const double reach_m = person.radius_m + other.radius_m;
@@ -161,13 +157,13 @@ Vec2 SocialForce::force_of_neighbors(const Walker& walker, const Span<Person>& p
     const double model_distance_m = std::max(gap_m + 2.0 * reference_radius_m, 0.01);
     const Vec2 force = interaction(shape_, toward, model_distance_m, person.velocity - other.velocity);
     const bool is_companion = person.group != 0 && other.slot != no_slot && people[other.slot].group == person.group;
-    if (!is_companion && !walkers_.right_of_way().ignores(slot, other, people))
-      sum += weight * (social_weight * force - repulsion(gap_m) * toward);
+    if (!is_companion && !neighbor.is_ignored)
+      sum += neighbor.weight * (social_weight * force - repulsion(gap_m) * toward);
 
-    const double following_s = weight * time_gap;
+    const double following_s = neighbor.weight * time_gap;
     if (gap_m < speed * following_s)
       speed = std::min(speed, headway(way, apart, reach_m, other.velocity) / following_s);
-  }
+  });
   return sum;
 }
 

@@ -7,7 +7,6 @@
 
 #include "pedestrians/crowd/crowd_model.hpp"
 #include "pedestrians/crowd/groups.hpp"
-#include "pedestrians/crowd/neighbor_grid.hpp"
 #include "pedestrians/crowd/wall_grid.hpp"
 
 namespace dmrp::pedestrians {
@@ -72,7 +71,6 @@ class SocialForce final : public CrowdModel {
   InteractionShape shape_ = {};
   std::uint64_t seed_ = 0;
   Groups groups_;
-  NeighborGrid neighbors_;
   WallGrid walls_;
   std::vector<WallPoint> wall_points_;
 };

@@ -30,6 +30,43 @@ std::vector<dmrp_person> packed_people(const WalkingWorld& world, double people_
   return people;
 }
 
+// How often people who wait before a door of 1 m turn back: turns of their motion by more than a right angle, over
+// person-seconds within 3 m of it.
+double turns_a_second_before_door(const std::string& model, const char* reactions) {
+  const WalkingWorld world({12.0, 8.0}, {{{8.0, 0.0}, {8.2, 3.5}}, {{8.0, 4.5}, {8.2, 8.0}}});
+  const dmrp_vec2 door = {8.1, 4.0};
+  Walk walk(world, "dmrp.pedestrian." + model, {{"reactions", reactions}});
+  dmrp::toolkit::Stream chance(1, "door");
+  for (std::uint64_t id = 0; id < 40; ++id) {
+    const dmrp_vec2 at = {2.4 + 0.7 * static_cast<double>(id % 8), 1.0 + 0.8 * static_cast<double>(id / 8)};
+    walk.people.push_back(person(id, at, {11.5, 4.0}, chance.truncated_normal(1.34, 0.26, 0.5, 2.0)));
+    walk.people.back().radius_m = 0.2;
+    walk.people.back().target_id = 1;
+  }
+  std::vector<dmrp_vec2> before(walk.people.size());  // the last motion
+  double turns = 0.0;
+  double waits_s = 0.0;
+  walk.until(25.0, [&] {
+    for (const dmrp_person& each : walk.people) {
+      const bool waits = each.position.x < 7.8 && dmrp::toolkit::distance(each.position, door) < 3.0;
+      if (waits) waits_s += Walk::step_s;
+      if (dmrp::toolkit::norm(each.velocity) < 0.02) continue;  // stands
+      if (waits && dmrp::toolkit::dot(each.velocity, before[each.id]) < 0.0) turns += 1.0;
+      before[each.id] = each.velocity;
+    }
+    return false;
+  });
+  REQUIRE(waits_s > 200.0);
+  return turns / waits_s;
+}
+
+TEST_CASE("people who wait before a door do not turn to and fro") {
+  const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
+  CAPTURE(model);
+  CHECK(turns_a_second_before_door(model, "on") < 2.0);
+  if (model == "collision_free_speed") CHECK(turns_a_second_before_door(model, "off") < 2.0);
+}
+
 TEST_CASE("models walk on a grid of 0.25 m for the scenario's largest person") {
   const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
   CAPTURE(model);

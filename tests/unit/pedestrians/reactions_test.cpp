@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What people do when they see a robot: HuNavSim's behaviours in all models.
+#include "pedestrians/crowd/reactions.hpp"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <dmrp/toolkit/vec2.hpp>
 #include <map>
 
-#include "pedestrians/crowd/robot_reactions.hpp"
 #include "tests/unit/pedestrians/walking_world.hpp"
 
 namespace reactions_test {
@@ -123,6 +124,71 @@ TEST_CASE("shares of the people have reactions, drawn from the seed") {
   Encounter curious("orca", DMRP_REACTION_UNSPECIFIED, {{"curious_share", 1.0}});
   CHECK(curious.nearest_m < 1.6);
   CHECK_THROWS(reactions.start(3, dmrp::toolkit::GridView(hall().walking_grid()), {0.5, 0.5, 0.5, 0.0}));
+}
+
+TEST_CASE("off, people answer to a robot no more than the model has it") {
+  const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
+  CAPTURE(model);
+  // a person and a waiting robot in an aisle too narrow to pass
+  const WalkingWorld aisle({24.0, 1.0}, {});
+  const auto steps_back = [&](const char* reactions) {
+    Walk walk(aisle, "dmrp.pedestrian." + model, {{"reactions", reactions}});
+    walk.people = {person(1, {2.0, 0.5}, {22.0, 0.5}, 1.2)};
+    walk.robots = {robot(1, {6.0, 0.5})};
+    double furthest_m = 0.0, back_m = 0.0;
+    walk.until(20.0, [&] {
+      furthest_m = std::max(furthest_m, walk.people[0].position.x);
+      back_m = std::max(back_m, furthest_m - walk.people[0].position.x);
+      return false;
+    });
+    return back_m > 0.5;
+  };
+  CHECK(steps_back("on"));
+  CHECK_FALSE(steps_back("off"));
+  // regular and impassive people only have an awareness of their own
+  const auto places = [&](std::uint32_t reaction, double awareness) {
+    return Encounter(model, reaction, {{"robot_awareness", awareness}, {"reactions", "off"}}).places;
+  };
+  CHECK(places(DMRP_REACTION_REGULAR, 0.0) == places(DMRP_REACTION_UNSPECIFIED, 1.0));
+  CHECK(places(DMRP_REACTION_IMPASSIVE, 1.0) == places(DMRP_REACTION_UNSPECIFIED, 0.0));
+}
+
+TEST_CASE("off, nobody has the right of way") {
+  using namespace dmrp::pedestrians;
+  std::vector<dmrp_person> people = {person(1, {4.0, 2.0}, {9.0, 2.0}), person(2, {5.0, 2.0}, {1.0, 2.0})};
+  const auto somebody_ignores = [&](bool is_on) {
+    Reactions reactions;
+    reactions.start(1, dmrp::toolkit::GridView(hall().walking_grid()), is_on, 1.0, {});
+    for (int step = 0; step < 1000; ++step) {
+      reactions.begin_step();
+      reactions.wish(people[0], {1.0, 0.0}, {}, Walk::step_s);
+      reactions.wish(people[1], {-1.0, 0.0}, {}, Walk::step_s);
+    }
+    const auto ignores = [&](std::uint32_t slot, std::uint32_t other) {
+      return reactions.ignores(slot, {people[other].position, {0.0, 0.0}, 0.3, other}, {people.data(), people.size()});
+    };
+    return ignores(0, 1) || ignores(1, 0);
+  };
+  CHECK(somebody_ignores(true));
+  CHECK_FALSE(somebody_ignores(false));
+}
+
+TEST_CASE("off, shares are refused, and a model says that it leaves out a flow's reaction") {
+  dmrp::pedestrians::Reactions reactions;
+  const dmrp::toolkit::GridView grid(hall().walking_grid());
+  CHECK_THROWS_WITH(reactions.start(1, grid, false, 1.0, {0.0, 0.0, 0.1, 0.0}), Catch::Contains("reactions = \"on\""));
+
+  const std::string model = GENERATE("social_force", "orca", "collision_free_speed");
+  const auto warnings = [&](std::uint32_t reaction, const char* setting) {
+    Walk walk(hall(), "dmrp.pedestrian." + model, {{"reactions", setting}});
+    walk.people = {person(1, {2.0, 6.0}, {22.0, 6.0})};
+    walk.people[0].reaction = reaction;
+    walk_for(walk, 0.1);
+    return walk.log().size();
+  };
+  CHECK(warnings(DMRP_REACTION_CURIOUS, "off") == 1);
+  CHECK(warnings(DMRP_REACTION_CURIOUS, "on") == 0);
+  CHECK(warnings(DMRP_REACTION_IMPASSIVE, "off") == 0);
 }
 
 }  // namespace reactions_test

@@ -75,6 +75,7 @@ class Walk {
   std::vector<dmrp_agent> robots;
   std::vector<dmrp_vec2> velocities;  // the model's last answer
   const dmrp_walking_grid_request& asked_grid() const { return walking_grid_->asked; }
+  const std::vector<FakeHost::LogLine>& log() { return model_.host().log; }
   double t_s() const { return static_cast<double>(step_) * step_s; }
 
   // One step. Robots move at their velocities. Fails the test if a velocity is not finite or above 5 m/s.

@@ -31,7 +31,7 @@ TEST_CASE("the neighbour grid finds the same bodies as exhaustive search") {
     Stream chance(1, "bodies", round);
     std::vector<Body> bodies;
     for (std::uint32_t slot = 0; slot < 60 * round; ++slot)
-      bodies.push_back({{chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)}, {0.0, 0.0}, 0.3, 1.0, slot});
+      bodies.push_back({{chance.uniform(-12.0, 15.0), chance.uniform(-2.0, 19.0)}, {0.0, 0.0}, 0.3, slot});
     grid.build(bodies);
     REQUIRE(grid.by_place().size() == bodies.size());
 
@@ -142,8 +142,6 @@ TEST_CASE("cached lines of sight equal an examination of the whole line") {
 }
 
 TEST_CASE("walkers are the people in the order of the grid, with their directions, without robots") {
-  NeighborGrid grid;
-  grid.start({0.0, 0.0}, {20.0, 20.0}, 1.0);
   std::vector<dmrp_person> people;
   Stream chance(1, "walkers");
   for (std::uint64_t id = 0; id < 50; ++id)
@@ -159,17 +157,16 @@ TEST_CASE("walkers are the people in the order of the grid, with their direction
 
   const double awareness = GENERATE(0.0, 0.5);
   Walkers walkers;
-  walkers.gather(dmrp::Crowd(crowd), awareness, grid, [](std::uint32_t slot, const dmrp_person& person) {
+  walkers.grid.start({0.0, 0.0}, {20.0, 20.0}, 1.0);
+  walkers.reactions.start(1, {}, true, awareness, {});
+  walkers.gather(dmrp::Crowd(crowd), [](std::uint32_t slot, const dmrp_person& person) {
     return dmrp_vec2{static_cast<double>(slot), person.position.x};
   });
-  CHECK(grid.by_place().size() == (awareness > 0.0 ? 52 : 50));
+  CHECK(walkers.grid.by_place().size() == 52);
   REQUIRE(walkers.by_place().size() == 50);
   auto walker = walkers.by_place().begin();
-  for (const Body& body : grid.by_place()) {
-    if (body.slot == no_slot) {
-      CHECK(body.weight == 1.0);
-      continue;
-    }
+  for (const Body& body : walkers.grid.by_place()) {
+    if (body.slot == no_slot) continue;
     REQUIRE(walker->slot == body.slot);
     CHECK(walker->person.id == body.slot);
     CHECK(walker->robot_weight == awareness);
@@ -257,7 +254,7 @@ TEST_CASE("a blocked person ignores people ahead who have farther to go") {
     }
   };
   const auto ignores = [&](std::uint32_t slot, std::uint32_t over) {
-    const Body body = {people[over].position, {0.0, 0.0}, 0.3, 1.0, over};
+    const Body body = {people[over].position, {0.0, 0.0}, 0.3, over};
     return right_of_way.ignores(slot, body, {people.data(), people.size()});
   };
 
@@ -272,8 +269,22 @@ TEST_CASE("a blocked person ignores people ahead who have farther to go") {
   CHECK(ignores(0, 1));
   CHECK_FALSE(ignores(1, 0));  // has farther to go
   CHECK_FALSE(ignores(0, 2));  // a person behind
-  const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, 1.0, no_slot};
+  const Body robot = {{4.4, 2.0}, {0.0, 0.0}, 0.25, no_slot};
   CHECK_FALSE(right_of_way.ignores(0, robot, {people.data(), people.size()}));
+
+  const auto walk_at = [&](double share) {
+    for (int step = 0; step < 1000; ++step) {
+      right_of_way.begin_step();
+      for (dmrp_person& each : people) {
+        each.velocity = {-share * each.desired_speed, 0.0};
+        right_of_way.update(each, {-1.0, 0.0}, 0.02);
+      }
+    }
+    return ignores(0, 1);
+  };
+  CHECK(walk_at(0.05));  // shuffles on
+  CHECK_FALSE(walk_at(0.2));
+  CHECK_FALSE(walk_at(0.05));
 }
 
 }  // namespace crowd_test
