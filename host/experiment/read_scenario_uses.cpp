@@ -211,8 +211,11 @@ std::vector<PeopleChange> people_to_run(const TomlTable& table) {
   return changes;
 }
 
-// So many people in all, in the proportions of the flows; the largest remainders are rounded up.
+// So many people in all, in the proportions of the flows, equally if none has people; the largest remainders are rounded
+// up.
 void share_people(std::uint64_t total, std::vector<core::Flow>& flows) {
+  if (std::none_of(flows.begin(), flows.end(), [](const core::Flow& flow) { return flow.people; }))
+    for (core::Flow& flow : flows) flow.people = 1;
   std::uint64_t listed = 0;
   for (const core::Flow& flow : flows) listed += flow.people;
   std::vector<std::pair<std::uint64_t, std::size_t>> remainders;
@@ -229,8 +232,8 @@ void share_people(std::uint64_t total, std::vector<core::Flow>& flows) {
 // Groups are at most as large as their flow.
 void change_people(const TomlTable& table, const PeopleChange& change, core::Scenario& scenario) {
   if (!change.key) return;
-  const bool walk = std::any_of(scenario.flows.begin(), scenario.flows.end(), [](const auto& f) { return f.people; });
-  if (!walk) table.need(change.key).fail_at_key(fmt::format("scenario '{}' has no flows of people", scenario.name));
+  if (scenario.flows.empty())
+    table.need(change.key).fail_at_key(fmt::format("scenario '{}' has no flows of people", scenario.name));
   if (change.key == std::string_view("people"))
     share_people(static_cast<std::uint64_t>(change.value), scenario.flows);
   else

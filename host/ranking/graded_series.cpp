@@ -13,6 +13,11 @@
 namespace dmrp::host {
 namespace {
 
+// "Door (people 2)": the title with the swept values of the series' name.
+std::string title_of(const ScenarioFacts& facts) {
+  return facts.title + facts.series.substr(std::min(facts.series.find(" ("), facts.series.size()));
+}
+
 // The series with its levels from the hardest to the easiest.
 std::vector<GradedSeries> empty_series(std::span<const ScenarioFacts> scenarios) {
   std::vector<GradedSeries> all;
@@ -21,7 +26,7 @@ std::vector<GradedSeries> empty_series(std::span<const ScenarioFacts> scenarios)
     auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == facts.series; });
     if (series == all.end())
       series = all.insert(
-          all.end(), {facts.series, facts.title, facts.quantity, facts.unit, facts.harder_when_higher, {}, {}, {}});
+          all.end(), {facts.series, title_of(facts), facts.quantity, facts.unit, facts.harder_when_higher, {}, {}, {}});
     const auto is_easier = [&](double level) {
       return facts.harder_when_higher ? level < facts.level : level > facts.level;
     };

@@ -9,6 +9,7 @@
 #include "metrics/interaction/blocked_time.hpp"
 #include "metrics/interaction/deadlock.hpp"
 #include "metrics/interaction/encounters.hpp"
+#include "metrics/interaction/mini_game.hpp"
 #include "metrics/interaction/neighbours.hpp"
 #include "metrics/interaction/open_standstill.hpp"
 #include "metrics/interaction/person_standoff.hpp"
@@ -45,7 +46,7 @@ DMRP_PLUGINS(dmrp::metrics::Success, dmrp::metrics::PathLength, dmrp::metrics::P
              dmrp::metrics::Collisions, dmrp::metrics::BrakingResponse, dmrp::metrics::Clearance,
              dmrp::metrics::TimeToCollision, dmrp::metrics::BlockedTime, dmrp::metrics::Deadlock,
              dmrp::metrics::PersonStandoff, dmrp::metrics::OpenStandstill, dmrp::metrics::Encounters,
-             dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics,
+             dmrp::metrics::MiniGame, dmrp::metrics::Neighbours, dmrp::metrics::PeopleNearby, dmrp::metrics::Proxemics,
              dmrp::metrics::GroupIntrusion, dmrp::metrics::SocialWork, dmrp::metrics::PedestrianProgress,
              dmrp::metrics::Smoothness, dmrp::metrics::IdleTime, dmrp::metrics::ClippedCommands,
              dmrp::metrics::Recoveries, dmrp::metrics::Interventions, dmrp::metrics::ComputeTime)

@@ -5,7 +5,7 @@
 #     tests/bench/held_out.sh DMRP_HOST OUT
 #
 # Finished trials in OUT are kept: call it again to continue after an interruption. JOBS (2) and SEED (that of the page)
-# are environment variables. tests/tuning/tune.sh refuses the seed.
+# are environment variables. tests/tuning/tune.py refuses the seed.
 set -euo pipefail
 host=$(realpath "$1")
 out=$2

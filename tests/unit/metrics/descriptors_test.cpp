@@ -107,7 +107,8 @@ TEST_CASE("a trial without a plan has a value for every name, and 0 only where n
                                       "throughput",
                                       "contact_free_success",
                                       "braking_response_success",
-                                      "success_at"};
+                                      "success_at",
+                                      "flow_rate"};
   for (std::uint32_t i = 0; i < entry().plugin_count(&entry()); ++i) {
     const Measurement m = measure(entry().descriptor(&entry(), i)->id, trial);  // checks that every name has a value
     CHECK(m.events.size() == (std::string(entry().descriptor(&entry(), i)->id) == "dmrp.metric.success" ? 3 : 0));
@@ -131,7 +132,8 @@ TEST_CASE("in a trial with a plan, only values without events or people are unde
     trial.handed(0, {{0, 0}, {1, 0}}).handed(1, {{5, 0}});
   }
   trial.end(3.0, {never, never});
-  const std::set<std::string> no_arrival = {"completion_time", "flowtime", "makespan", "culprit", "after_standstill"};
+  const std::set<std::string> no_arrival = {"completion_time", "flowtime",       "makespan",
+                                            "culprit",         "makespan_ratio", "after_standstill"};
   const std::set<std::string> no_motion = {"ttc_min", "impact_speed", "path_irregularity", "schedule_error_s",
                                            "schedule_deviation_s"};
   const std::set<std::string> no_calls = {"planning_time",     "plan_call_mean",   "plan_call_p99", "plan_missed",

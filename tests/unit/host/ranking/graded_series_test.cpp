@@ -35,8 +35,8 @@ void add_level(std::vector<TrialRecord>& trials, const std::string& scenario, st
 TEST_CASE("levels are put from hard to easy, and a combination gets its threshold", "[ranking]") {
   const std::vector<ScenarioFacts> facts = {
       level_of("door", 0.8, "door 0.8", false), level_of("door", 0.6, "door 0.6", false),
-      level_of("door", 0.7, "door 0.7", false), level_of("crowd", 1.0, "crowd 1", true),
-      level_of("crowd", 0.5, "crowd 0.5", true)};
+      level_of("door", 0.7, "door 0.7", false), level_of("crowd (people 2)", 1.0, "crowd 1", true),
+      level_of("crowd (people 2)", 0.5, "crowd 0.5", true)};
   std::vector<TrialRecord> trials;
   add_level(trials, "door 0.8", 20);
   add_level(trials, "door 0.6", 2);
@@ -46,6 +46,8 @@ TEST_CASE("levels are put from hard to easy, and a combination gets its threshol
   add_level(trials, "elsewhere", 3);
   const auto series = graded_series(ranking_layout(), facts, trials);
   REQUIRE(series.size() == 2);
+  CHECK(series[0].title == "A test");
+  CHECK(series[1].title == "A test (people 2)");
   CHECK(series[0].levels == std::vector{0.6, 0.7, 0.8});
   CHECK(series[0].scenarios == std::vector<std::string>{"door 0.6", "door 0.7", "door 0.8"});
   REQUIRE(series[0].results.size() == 1);

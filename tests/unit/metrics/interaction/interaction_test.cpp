@@ -8,6 +8,7 @@
 
 namespace interaction_test {
 
+using Catch::Matchers::WithinAbs;
 using namespace dmrp::test;
 
 // Two samples a second from 0 to `end_s`, the robots as `at_time` says.
@@ -186,6 +187,36 @@ TEST_CASE("a robot that stands though nobody is in its way is counted") {
   CHECK(m.events[0].from_s == 0.0);
   CHECK(m.events[0].to_s == 15.0);
   CHECK(m.events[0].text == "robot 0 stands although nobody is in its way");
+}
+
+TEST_CASE("a mini-game's robots wait for each other, change their velocity and flow through") {
+  SyntheticTrial trial(2);
+  trial.plan({{{0, 0}, {3, 0}}, {{0, 1}, {3, 1}}});
+  const auto moving = [](double x, double y, double heading, double v_x, std::uint32_t state = DMRP_ROBOT_ACTIVE) {
+    dmrp_robot_sample sample = at(x, y, v_x, state);
+    sample.pose.theta = heading;
+    return sample;
+  };
+  trial.sample(0.0, {moving(0, 0, 0, 0.0), moving(0, 1, 0, 0.0)});
+  trial.sample(2.0, {moving(1, 0, 0, 0.5), moving(0, 1, 0, 0.5)});
+  trial.sample(4.0, {moving(2, 0, dmrp::toolkit::pi / 2, 0.5), moving(1, 1, 0, 0.5)});  // turns: sqrt(0.5)
+  trial.sample(5.0, {moving(3, 0, dmrp::toolkit::pi / 2, 0.0, parked), moving(2, 1, 0, 0.5)});
+  trial.sample(8.0, {moving(3, 0, 0.0, 0.0, parked), moving(3, 1, 0, 0.5, parked)});
+  trial.end(8.0, {5.0, 8.0});
+  const Measurement m = measure("dmrp.metric.mini_game", trial);
+  CHECK(m.robot("makespan_ratio", 0) == 1.0);
+  CHECK(m.robot("makespan_ratio", 1) == 1.6);
+  CHECK(m.system("makespan_ratio") == 1.6);
+  CHECK_THAT(m.robot("velocity_change", 0), WithinAbs(0.5 + std::sqrt(0.5) + 0.5, 1e-12));
+  CHECK_THAT(m.robot("velocity_change", 1), WithinAbs(0.5, 1e-12));
+  CHECK(m.system("flow_rate") == 2.0 / 8.0);
+  CHECK(measure("dmrp.metric.mini_game", trial, {{"gap_width_m", 0.5}}).system("flow_rate") == 2.0 / (0.5 * 8.0));
+
+  trial.end(8.0, {5.0, never});
+  const Measurement stuck = measure("dmrp.metric.mini_game", trial);
+  CHECK(stuck.system("flow_rate") == 0.0);
+  CHECK(std::isnan(stuck.system("makespan_ratio")));
+  CHECK(stuck.robot("makespan_ratio", 0) == 1.0);
 }
 
 }  // namespace interaction_test
