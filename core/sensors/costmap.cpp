@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <dmrp/toolkit/vec2.hpp>
+#include <numbers>
 #include <utility>
 
 namespace dmrp::core {
@@ -21,6 +22,9 @@ constexpr double inset_cells = 1e-9;
 // Fraction bits of a cell position in fixed point: precise enough for inset_cells on the longest line, with enough
 // integer bits for the largest window.
 constexpr int fraction_bits = 44;
+
+// In cells: the half of a cell's diagonal, and rounding. No line that has a cell passes its middle farther away.
+constexpr double cell_reach = 0.7072;
 
 // Rows of the stamp are a multiple of this length, so that the compiler can vectorise.
 constexpr std::int64_t vector_bytes = 16;
@@ -51,18 +55,6 @@ std::uint8_t misses_to_clear(double share) {
   return count;
 }
 
-// The first nonzero cell from `cell` on; `end` if there is none.
-const std::uint8_t* next_lethal(const std::uint8_t* cell, const std::uint8_t* end) {
-  std::uint64_t cells = 0;
-  while (end - cell >= std::ptrdiff_t{sizeof(cells)}) {
-    std::memcpy(&cells, cell, sizeof(cells));
-    if (cells != 0) break;
-    cell += sizeof(cells);
-  }
-  while (cell < end && *cell == 0) ++cell;
-  return cell;
-}
-
 // The point where a line from inside the square [least, most]^2 leaves it, or `to`.
 dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most) {
   const auto fraction = [least, most](double start, double end) {
@@ -71,6 +63,50 @@ dmrp_vec2 clip_to_square(dmrp_vec2 from, dmrp_vec2 to, double least, double most
   };
   return toolkit::lerp(from, to, std::min(fraction(from.x, to.x), fraction(from.y, to.y)));
 }
+
+// The cells of a line: one in every column that it crosses, or in every row if it is steep.
+class CellLine {
+ public:
+  CellLine(dmrp_vec2 from, dmrp_vec2 to, std::int64_t side) {
+    to = clip_to_square(from, to, inset_cells, static_cast<double>(side) - inset_cells);
+    const dmrp_vec2 way = to - from;
+    by_columns_ = std::abs(way.x) >= std::abs(way.y);
+    start_ = by_columns_ ? from.x : from.y;
+    aside_ = by_columns_ ? from.y : from.x;
+    const double end = by_columns_ ? to.x : to.y;
+    slope_ = end == start_ ? 0.0 : (by_columns_ ? way.y / way.x : way.x / way.y);
+    low_ = std::min(start_, end);
+    high_ = std::max(start_, end);
+    first_ = static_cast<std::int64_t>(low_);
+    last_ = static_cast<std::int64_t>(high_);
+  }
+
+  bool has(std::int64_t column, std::int64_t row) const {
+    const std::int64_t major = by_columns_ ? column : row;
+    const std::int64_t minor = by_columns_ ? row : column;
+    if (major < first_ || major > last_) return false;
+    if (major > first_ && major < last_) return minor == between(major);
+    const double middle = std::clamp(static_cast<double>(major) + 0.5, low_, high_);
+    return minor == minor_at(middle) || (major == first_ && minor == minor_at(low_)) ||
+           (major == last_ && minor == minor_at(high_));
+  }
+
+ private:
+  std::int64_t minor_at(double at) const { return static_cast<std::int64_t>(aside_ + slope_ * (at - start_)); }
+
+  // Between the ends from middle to middle in fixed point.
+  std::int64_t between(std::int64_t major) const {
+    const double unit = static_cast<double>(std::int64_t{1} << fraction_bits);
+    const auto step = static_cast<std::int64_t>(slope_ * unit);
+    const auto second =
+        static_cast<std::int64_t>((aside_ + slope_ * (static_cast<double>(first_) + 1.5 - start_)) * unit);
+    return (second + (major - first_ - 1) * step) >> fraction_bits;
+  }
+
+  bool by_columns_;
+  double start_, aside_, slope_, low_, high_;
+  std::int64_t first_, last_;
+};
 
 }  // namespace
 
@@ -81,7 +117,7 @@ LocalCostmap::LocalCostmap(const CostmapSettings& settings, double inscribed_rad
   assert(dropout_share >= 0.0 && dropout_share < 1.0);
   const auto cells = static_cast<std::size_t>(side_ * side_);
   lethal_.resize(cells);
-  rolled_.resize(cells);
+  scans_.resize(cells);
   costs_.resize(cells);
   make_stamp(inscribed_radius_m);
 
@@ -116,12 +152,13 @@ void LocalCostmap::reset() {
   is_placed_ = false;
   field_is_fresh_ = false;
   std::fill(lethal_.begin(), lethal_.end(), std::uint8_t{0});
+  cells_.clear();
   std::fill(costs_.begin(), costs_.end(), std::uint8_t{DMRP_COST_FREE});
 }
 
 void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
   assert(toolkit::is_finite(toolkit::position(sensor)) && (scan.ranges || scan.count == 0));
-  roll_to(toolkit::position(sensor));
+  bool has_changed = roll_to(toolkit::position(sensor));
 
   aim_beams(sensor, scan);
   // In cells from the window's lower left corner.
@@ -132,17 +169,20 @@ void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
     for (std::uint32_t beam = 0; beam < scan.count; ++beam)
       if (std::isinf(scan.ranges[beam]))
         count_miss_along(origin, origin + settings_.raytrace_range_m * cells_per_metre_[beam]);
+    has_changed |= drop_free_cells();
   }
-  for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
-    if (misses_to_clear_ > 1 && std::isinf(scan.ranges[beam])) continue;
-    const double range_m = std::min(static_cast<double>(scan.ranges[beam]), settings_.raytrace_range_m);
-    clear_along(origin, origin + range_m * cells_per_metre_[beam]);
+  // A scan clears along its beams, and then marks. Most of what it would clear it marks again, so the marks come first.
+  if (++scan_ == 0) {
+    std::fill(scans_.begin(), scans_.end(), 0U);
+    scan_ = 1;
   }
   for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
     const double range_m = static_cast<double>(scan.ranges[beam]);
-    if (range_m < settings_.obstacle_range_m) mark(origin + (range_m + behind_surface_m) * cells_per_metre_[beam]);
+    if (range_m < settings_.obstacle_range_m)
+      has_changed |= mark(origin + (range_m + behind_surface_m) * cells_per_metre_[beam]);
   }
-  inflate();
+  has_changed |= clear(origin, sensor, scan);
+  if (has_changed) inflate();
   costmap_.t_ns = scan.t_ns;
   costmap_.origin = {static_cast<double>(column_) * settings_.resolution_m,
                      static_cast<double>(row_) * settings_.resolution_m};
@@ -163,8 +203,8 @@ void LocalCostmap::aim_beams(const dmrp_pose& sensor, const dmrp_scan& scan) {
     cells_per_metre_[beam] = directions_[beam].x * ahead + directions_[beam].y * toolkit::perpendicular(ahead);
 }
 
-// Cells that leave the window are discarded.
-void LocalCostmap::roll_to(dmrp_vec2 center) {
+// Cells that leave the window are discarded. Returns whether the window moved.
+bool LocalCostmap::roll_to(dmrp_vec2 center) {
   const auto lattice = [&](double metres) {
     return static_cast<std::int64_t>(std::floor(metres / settings_.resolution_m)) - side_ / 2;
   };
@@ -173,49 +213,64 @@ void LocalCostmap::roll_to(dmrp_vec2 center) {
   column_ = lattice(center.x);
   row_ = lattice(center.y);
   is_placed_ = true;
-  if (columns == 0 && rows == 0) return;
+  if (columns == 0 && rows == 0) return false;
 
-  std::fill(rolled_.begin(), rolled_.end(), std::uint8_t{0});
-  const std::int64_t kept = side_ - std::abs(columns);
-  if (kept > 0) {
-    for (std::int64_t row = std::max<std::int64_t>(0, -rows); row < std::min(side_, side_ - rows); ++row) {
-      const std::uint8_t* const source = lethal_.data() + (row + rows) * side_ + std::max<std::int64_t>(0, columns);
-      std::memcpy(rolled_.data() + row * side_ + std::max<std::int64_t>(0, -columns), source,
-                  static_cast<std::size_t>(kept));
-    }
+  misses_.clear();
+  for (const std::uint32_t cell : cells_) misses_.push_back(std::exchange(lethal_[cell], std::uint8_t{0}));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const std::int64_t column = cells_[i] % side_ - columns;
+    const std::int64_t row = cells_[i] / side_ - rows;
+    if (column < 0 || column >= side_ || row < 0 || row >= side_) continue;
+    cells_[kept] = static_cast<std::uint32_t>(row * side_ + column);
+    lethal_[cells_[kept++]] = misses_[i];
   }
-  std::swap(lethal_, rolled_);
+  cells_.resize(kept);
+  return true;
 }
 
-// Clears one cell in every column that the line crosses, or in every row if the line is steep.
-void LocalCostmap::clear_along(dmrp_vec2 from, dmrp_vec2 to) {
-  to = clip_to_square(from, to, inset_cells, static_cast<double>(side_) - inset_cells);
-  const dmrp_vec2 way = to - from;
-  const bool by_columns = std::abs(way.x) >= std::abs(way.y);
-  const double start = by_columns ? from.x : from.y;
-  const double end = by_columns ? to.x : to.y;
-  const double aside = by_columns ? from.y : from.x;
-  const double slope = end == start ? 0.0 : (by_columns ? way.y / way.x : way.x / way.y);
-  const std::int64_t stride = by_columns ? 1 : side_;
-  const std::int64_t cross_stride = by_columns ? side_ : 1;
-  const double low = std::min(start, end);
-  const double high = std::max(start, end);
-  const auto first = static_cast<std::int64_t>(low);
-  const auto last = static_cast<std::int64_t>(high);
-  std::uint8_t* const cells = lethal_.data();
-  const auto clear_at = [&](std::int64_t major, double at) {
-    cells[major * stride + static_cast<std::int64_t>(aside + slope * (at - start)) * cross_stride] = 0;
+// Clears the cells on lines that this scan has not marked. Returns whether there were any.
+bool LocalCostmap::clear(dmrp_vec2 from, const dmrp_pose& sensor, const dmrp_scan& scan) {
+  for (const std::uint32_t cell : cells_)
+    if (scans_[cell] != scan_ && is_cleared(cell % side_, cell / side_, from, sensor, scan)) lethal_[cell] = 0;
+  return drop_free_cells();
+}
+
+// Returns whether there were any.
+bool LocalCostmap::drop_free_cells() {
+  return std::erase_if(cells_, [&](std::uint32_t cell) { return lethal_[cell] == 0; }) > 0;
+}
+
+// Whether the line of a beam has the cell. Only beams that point at it can.
+bool LocalCostmap::is_cleared(std::int64_t column, std::int64_t row, dmrp_vec2 from, const dmrp_pose& sensor,
+                              const dmrp_scan& scan) const {
+  const dmrp_vec2 way = dmrp_vec2{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5} - from;
+  const double distance = toolkit::norm(way);
+  const double reached_m = (distance - cell_reach) * settings_.resolution_m;  // by every line that has the cell
+  const auto clears = [&](std::int64_t beam) {
+    const auto range_m = static_cast<double>(scan.ranges[beam]);
+    if (misses_to_clear_ > 1 && std::isinf(range_m)) return false;
+    const double cleared_m = std::min(range_m, settings_.raytrace_range_m);
+    if (cleared_m < reached_m) return false;
+    return CellLine(from, from + cleared_m * cells_per_metre_[static_cast<std::size_t>(beam)], side_).has(column, row);
   };
-  // The ends first and last; between them from middle to middle in fixed point.
-  const double unit = static_cast<double>(std::int64_t{1} << fraction_bits);
-  const auto step = static_cast<std::int64_t>(slope * unit);
-  auto minor = static_cast<std::int64_t>((aside + slope * (static_cast<double>(first) + 1.5 - start)) * unit);
-  clear_at(first, low);
-  clear_at(first, std::clamp(static_cast<double>(first) + 0.5, low, high));
-  for (std::int64_t major = first + 1; major < last; ++major, minor += step)
-    cells[major * stride + (minor >> fraction_bits) * cross_stride] = 0;
-  clear_at(last, std::clamp(static_cast<double>(last) + 0.5, low, high));
-  clear_at(last, high);
+  const auto any_clears = [&](double first, double last) {
+    for (auto beam = static_cast<std::int64_t>(first); static_cast<double>(beam) <= last; ++beam)
+      if (clears(beam)) return true;
+    return false;
+  };
+  const double count = scan.count;
+  if (distance <= cell_reach || !(scan.angle_increment > 0.0)) return any_clears(0.0, count - 1.0);
+  const double aside_rad = std::asin(cell_reach / distance);
+  const double turn_rad = 2.0 * std::numbers::pi;
+  double first_rad = std::atan2(way.y, way.x) - aside_rad - sensor.theta - scan.angle_min;
+  first_rad -= turn_rad * (std::floor(first_rad / turn_rad) + 1.0);  // the arc may begin before beam 0
+  for (; first_rad <= (count - 1.0) * scan.angle_increment; first_rad += turn_rad) {
+    const double first = std::max(0.0, std::ceil(first_rad / scan.angle_increment));
+    const double last = std::min(count - 1.0, std::floor((first_rad + 2.0 * aside_rad) / scan.angle_increment));
+    if (any_clears(first, last)) return true;
+  }
+  return false;
 }
 
 // Counts a miss of the nearest lethal cell on the line; cells behind it may be hidden.
@@ -234,11 +289,16 @@ void LocalCostmap::count_miss_along(dmrp_vec2 from, dmrp_vec2 to) {
   }
 }
 
-void LocalCostmap::mark(dmrp_vec2 point) {
+// Returns whether the cell was free.
+bool LocalCostmap::mark(dmrp_vec2 point) {
   const double side = static_cast<double>(side_);
-  if (!(point.x >= 0.0 && point.x < side && point.y >= 0.0 && point.y < side)) return;
-  lethal_[static_cast<std::size_t>(static_cast<std::int64_t>(point.y) * side_ + static_cast<std::int64_t>(point.x))] =
-      misses_to_clear_;
+  if (!(point.x >= 0.0 && point.x < side && point.y >= 0.0 && point.y < side)) return false;
+  const auto cell =
+      static_cast<std::uint32_t>(static_cast<std::int64_t>(point.y) * side_ + static_cast<std::int64_t>(point.x));
+  scans_[cell] = scan_;
+  if (std::exchange(lethal_[cell], misses_to_clear_) != 0) return false;
+  cells_.push_back(cell);
+  return true;
 }
 
 // The cost decreases with distance, so the maximum over all lethal cells is the cost of the nearest one: exact.
@@ -247,11 +307,9 @@ void LocalCostmap::inflate() {
   const std::int64_t canvas_stride = side_ + stamp_stride_;
   const std::int64_t stamp_stride = stamp_stride_;
   const std::int64_t stamp_rows = 2 * stamp_reach_ + 1;
-  const std::uint8_t* const begin = lethal_.data();
-  const std::uint8_t* const end = begin + lethal_.size();
-  for (const std::uint8_t* cell = next_lethal(begin, end); cell < end; cell = next_lethal(cell + 1, end)) {
+  for (const std::uint32_t cell : cells_) {
     // The canvas begins stamp_reach_ cells before the window on both axes.
-    std::uint8_t* target = canvas_.data() + (cell - begin) / side_ * canvas_stride + (cell - begin) % side_;
+    std::uint8_t* target = canvas_.data() + cell / side_ * canvas_stride + cell % side_;
     const std::uint8_t* source = stamp_.data();
     for (std::int64_t row = 0; row < stamp_rows; ++row) {
       for (std::int64_t i = 0; i < stamp_stride; i += vector_bytes) keep_larger(target + i, source + i);

@@ -46,11 +46,14 @@ class LocalCostmap {
 
  private:
   void make_stamp(double inscribed_radius_m);
-  void roll_to(dmrp_vec2 center);
+  bool roll_to(dmrp_vec2 center);
   void aim_beams(const dmrp_pose& sensor, const dmrp_scan& scan);
-  void clear_along(dmrp_vec2 from, dmrp_vec2 to);
   void count_miss_along(dmrp_vec2 from, dmrp_vec2 to);
-  void mark(dmrp_vec2 point);
+  bool mark(dmrp_vec2 point);
+  bool drop_free_cells();
+  bool clear(dmrp_vec2 from, const dmrp_pose& sensor, const dmrp_scan& scan);
+  bool is_cleared(std::int64_t column, std::int64_t row, dmrp_vec2 from, const dmrp_pose& sensor,
+                  const dmrp_scan& scan) const;
   void inflate();
 
   CostmapSettings settings_;
@@ -60,7 +63,10 @@ class LocalCostmap {
   bool is_placed_ = false;
   std::uint8_t misses_to_clear_;      // beams without return that clear a cell after a hit
   std::vector<std::uint8_t> lethal_;  // for each cell the misses that still clear it; 0: free
-  std::vector<std::uint8_t> rolled_;
+  std::vector<std::uint32_t> cells_;  // the lethal cells, by index
+  std::vector<std::uint8_t> misses_;  // of cells_, while they roll
+  std::vector<std::uint32_t> scans_;  // for each cell the last scan that marked it
+  std::uint32_t scan_ = 0;
 
   // Directions of the beams in the sensor's frame, for scans with these angles, and in cells per metre for this scan.
   double angle_min_ = 0.0;

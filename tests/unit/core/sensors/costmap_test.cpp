@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/sensors/costmap.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/sensors/lidar.hpp"
@@ -178,6 +180,110 @@ TEST_CASE("far hits clear but do not mark") {
   CHECK(mapping.cost_at({12.97, 12.97}) == DMRP_COST_FREE);
   mapping.look_from({10.3, 10.3, 0.25 * pi});
   CHECK(mapping.cost_at({12.97, 12.97}) == DMRP_COST_LETHAL);
+}
+
+// The costmap of costmap_2d in the order of its words: rolls, clears one cell in every column (or row) that a beam's line
+// crosses, then marks.
+class PlainMap {
+ public:
+  explicit PlainMap(const CostmapSettings& settings) : settings_(settings), lethal_(side * side) {}
+
+  void update(const dmrp_pose& sensor, const dmrp_scan& scan) {
+    const double cell_m = settings_.resolution_m;
+    roll_to(std::lround(std::floor(sensor.x / cell_m)) - side / 2,
+            std::lround(std::floor(sensor.y / cell_m)) - side / 2);
+    const dmrp_vec2 from = {sensor.x / cell_m - static_cast<double>(column_),
+                            sensor.y / cell_m - static_cast<double>(row_)};
+    for (const bool marks : {false, true})
+      for (std::uint32_t beam = 0; beam < scan.count; ++beam) {
+        const double range_m = static_cast<double>(scan.ranges[beam]);
+        const dmrp_vec2 way =
+            dmrp::toolkit::from_angle(sensor.theta + scan.angle_min + beam * scan.angle_increment) / cell_m;
+        if (!marks)
+          clear(from, from + std::min(range_m, settings_.raytrace_range_m) * way);
+        else if (range_m < settings_.obstacle_range_m)
+          at(from + (range_m + 1e-4) * way) = true;
+      }
+  }
+
+  bool is_lethal(std::int64_t cell) const { return lethal_[static_cast<std::size_t>(cell)] != 0; }
+
+  static constexpr std::int64_t side = 120;
+
+ private:
+  void roll_to(std::int64_t column, std::int64_t row) {
+    std::vector<char> rolled(lethal_.size());
+    for (std::int64_t y = 0; y < side; ++y)
+      for (std::int64_t x = 0; x < side; ++x) {
+        const std::int64_t old_x = x + column - column_, old_y = y + row - row_;
+        if (old_x >= 0 && old_x < side && old_y >= 0 && old_y < side)
+          rolled[static_cast<std::size_t>(y * side + x)] = lethal_[static_cast<std::size_t>(old_y * side + old_x)];
+      }
+    lethal_ = rolled;
+    column_ = column;
+    row_ = row;
+  }
+
+  char& at(dmrp_vec2 point) {
+    const auto x = static_cast<std::int64_t>(std::floor(point.x)), y = static_cast<std::int64_t>(std::floor(point.y));
+    const bool inside = x >= 0 && x < side && y >= 0 && y < side;
+    return inside ? lethal_[static_cast<std::size_t>(y * side + x)] : outside_;
+  }
+
+  // Up to the edge of the window.
+  void clear(dmrp_vec2 from, dmrp_vec2 to) {
+    constexpr double least = 1e-9, most = static_cast<double>(side) - 1e-9;
+    double share = 1.0;
+    for (const auto& [begin, end] : {std::pair(from.x, to.x), std::pair(from.y, to.y)})
+      if (end < least || end > most) share = std::min(share, ((end < least ? least : most) - begin) / (end - begin));
+    to = from + share * (to - from);
+    const dmrp_vec2 way = to - from;
+    const bool by_columns = std::abs(way.x) >= std::abs(way.y);
+    const double start = by_columns ? from.x : from.y, end = by_columns ? to.x : to.y;
+    if (start == end) return void(at(from) = false);
+    for (double major = std::floor(std::min(start, end)); major <= std::max(start, end); ++major) {
+      const double middle = std::clamp(major + 0.5, std::min(start, end), std::max(start, end));
+      at(from + (middle - start) / (end - start) * way) = false;
+    }
+    at(from) = at(to) = false;
+  }
+
+  CostmapSettings settings_;
+  std::vector<char> lethal_;
+  std::int64_t column_ = 0, row_ = 0;
+  char outside_ = 0;
+};
+
+TEST_CASE("a scan clears along its beams, and then marks") {
+  toolkit::Stream random(5, "scans");
+  const CostmapSettings settings;
+  LocalCostmap map(settings, 0.25);
+  PlainMap plain(settings);
+  constexpr std::uint32_t beams = 180;
+  std::vector<float> ranges(beams);
+  dmrp_pose robot = {0.013, -0.021, 0.3};
+  int differing = 0, lethal = 0;
+  for (int step = 0; step < 300; ++step) {
+    robot = {robot.x + 0.07 * std::cos(robot.theta), robot.y + 0.07 * std::sin(robot.theta), robot.theta + 0.011};
+    for (float& range : ranges)
+      range = random.uniform(0.0, 1.0) < 0.2 ? std::numeric_limits<float>::infinity()
+                                             : static_cast<float>(random.uniform(0.2, 6.0));
+    dmrp_scan scan{};
+    scan.struct_size = sizeof(scan);
+    scan.count = beams;
+    scan.angle_min = -pi;
+    scan.angle_increment = 2.0 * pi / beams;
+    scan.ranges = ranges.data();
+    map.update(robot, scan);
+    plain.update(robot, scan);
+    for (std::int64_t cell = 0; cell < PlainMap::side * PlainMap::side; ++cell) {
+      const bool is_lethal = map.costmap().costs[cell] == DMRP_COST_LETHAL;
+      lethal += is_lethal;
+      differing += is_lethal != plain.is_lethal(cell);
+    }
+  }
+  CHECK(lethal > 10000);
+  CHECK(differing == 0);
 }
 
 TEST_CASE("costs and distances are those of the nearest lethal cell, exactly") {
