@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shortest ways: cases computed by hand, and Theta* on fine cells among random shapes.
+// Shortest ways: cases computed by hand, and a visibility graph of many points among random shapes.
 #include "metrics/outcome/shortest_way.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <deque>
 #include <dmrp/toolkit/angle.hpp>
+#include <dmrp/toolkit/disc_sweep.hpp>
 #include <dmrp/toolkit/polygon.hpp>
 #include <dmrp/toolkit/random.hpp>
 #include <dmrp/toolkit/shape_distance.hpp>
 #include <vector>
 
 #include "tests/support/draws.hpp"
-#include "tests/unit/metrics/outcome/theta_star.hpp"
 
 namespace shortest_way_test {
 
@@ -49,14 +49,18 @@ class Scene {
   }
   Scene& box(Vec2 lower, Vec2 upper) { return polygon({lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}); }
 
+  const std::vector<Shape>& shapes() const { return shapes_; }
   double clearance(Vec2 point) const { return toolkit::clearance(shapes_, {{0.0, 0.0}, upper_}, point); }
+  bool is_clear(const Segment& leg) const {
+    return toolkit::disc_sweep_is_clear(leg, radius_m - 1e-9, shapes_, {{0.0, 0.0}, upper_});
+  }
 
   // Of a robot of this radius through all places.
-  double length(const std::vector<Vec2>& places, double radius = radius_m) {
+  double length(const std::vector<Vec2>& places, double radius = radius_m) const {
     metrics::ShortestTours tours;
     return length(tours, places, radius);
   }
-  double length(metrics::ShortestTours& tours, const std::vector<Vec2>& places, double radius = radius_m) {
+  double length(metrics::ShortestTours& tours, const std::vector<Vec2>& places, double radius = radius_m) const {
     dmrp_world world{};
     world.upper = upper_;
     world.shapes = shapes_.data();
@@ -128,6 +132,20 @@ TEST_CASE("walls made of several boxes are one wall") {
              WithinAbs(whole, 1e-9));
 }
 
+TEST_CASE("among racks many ways are equally short") {
+  Scene racks;
+  racks.size(60, 60);
+  for (int column = 0; column < 18; ++column)
+    for (int row = 0; row < 18; ++row) {
+      const Vec2 lower = {2.0 + 3.0 * column, 2.0 + 3.0 * row};
+      racks.box(lower, lower + Vec2{2.0, 2.0});
+    }
+  const double there = racks.length({{1, 1}, {59, 58}});
+  CHECK_THAT(racks.length({{59, 58}, {1, 1}}), WithinAbs(there, 1e-9));
+  CHECK(there > std::hypot(58.0, 57.0));
+  CHECK(there < 58.0 + 57.0);
+}
+
 TEST_CASE("a gap as wide as the robot is a way, a narrower one is none") {
   const auto through = [](double gap_m) {
     return Scene().box({4, 0}, {5, 5 - gap_m / 2}).box({4, 5 + gap_m / 2}, {5, 10}).length({{1, 5}, {9, 5}});
@@ -190,43 +208,79 @@ Scene random_scene(toolkit::Stream& random) {
   return scene;
 }
 
-TEST_CASE("the shortest way lies between Theta*'s for a slightly thinner and a slightly thicker disc") {
-  constexpr double cell_m = 0.05;
-  constexpr std::uint32_t columns = 200;
-  const double half_diagonal_m = cell_m * std::sqrt(0.5);
+// The visibility graph of polygons around the disc's places about corners and circles.
+class ManyPoints {
+ public:
+  explicit ManyPoints(const Scene& scene) : scene_(scene) {
+    for (const Shape& shape : scene.shapes()) {
+      if (shape.kind == DMRP_SHAPE_CIRCLE) {
+        add(shape.center, shape.radius_m + radius_m, 72);
+      } else {
+        for (const Vec2 vertex : toolkit::polygon_of(shape)) add(vertex, radius_m, 32);
+      }
+    }
+  }
+
+  // By Dijkstra's algorithm; NaN if there is no way.
+  double length(Vec2 from, Vec2 to) {
+    std::vector<Vec2> places = points_;
+    places.push_back(to);
+    std::vector<double> lengths(places.size(), std::numeric_limits<double>::infinity());
+    std::vector<char> settled(places.size(), 0);
+    Vec2 at = from;
+    double length = 0.0;
+    for (;;) {
+      std::size_t next = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (settled[i]) continue;
+        const double direct = length + toolkit::distance(at, places[i]);
+        if (direct < lengths[i] && scene_.is_clear({at, places[i]})) lengths[i] = direct;
+        if (lengths[i] < least) least = lengths[next = i];
+      }
+      if (std::isinf(least)) return undefined;
+      if (next + 1 == places.size()) return least;
+      settled[next] = 1;
+      at = places[next];
+      length = least;
+    }
+  }
+
+ private:
+  // The corners of a polygon that contains the circle.
+  void add(Vec2 center, double circle_radius_m, std::size_t count) {
+    const double corner_m = circle_radius_m / std::cos(pi / static_cast<double>(count));
+    for (const Vec2 point : toolkit::polygon_of_circle(center, corner_m, count))
+      if (scene_.is_clear({point, point})) points_.push_back(point);
+  }
+
+  const Scene& scene_;
+  std::vector<Vec2> points_;
+};
+
+TEST_CASE("the shortest way is at most that over many points, which is at most that of a disc 2 mm larger") {
   toolkit::Stream random(5, "shortest_way_test");
-  int ways = 0;
+  int ways = 0, bent = 0;
   for (int scene_index = 0; scene_index < test::draws(40); ++scene_index) {
-    Scene scene = random_scene(random);
-    std::vector<float> clearance;
-    for (std::uint32_t cell = 0; cell < columns * columns; ++cell)
-      clearance.push_back(
-          static_cast<float>(scene.clearance({(cell % columns + 0.5) * cell_m, (cell / columns + 0.5) * cell_m})));
-    Grid grid{};
-    grid.width = grid.height = columns;
-    grid.resolution_m = cell_m;
-    grid.clearance = clearance.data();
-    test::ThetaStar theta_star(grid);
-    for (int pair = 0; pair < 4; ++pair) {
+    const Scene scene = random_scene(random);
+    ManyPoints many_points(scene);
+    for (int pair = 0; pair < 3; ++pair) {
       const Vec2 from = {10 * random.uniform(), 10 * random.uniform()};
       const Vec2 to = {10 * random.uniform(), 10 * random.uniform()};
-      if (scene.clearance(from) < radius_m + 0.1 || scene.clearance(to) < radius_m + 0.1) continue;
-      const double found = theta_star.length(from, to, radius_m);
-      const double thin = scene.length({from, to}, radius_m - half_diagonal_m);
-      const double thick = scene.length({from, to}, radius_m + half_diagonal_m);
-      CAPTURE(scene_index, from.x, from.y, to.x, to.y, found);
-      if (!std::isnan(thick)) {
-        ++ways;
-        CHECK(found <= 1.02 * thick + cell_m);
-        CHECK(scene.length({from, to}) <= thick + 1e-9);
-      }
-      if (!std::isnan(found)) CHECK(thin <= found + 1e-4);
-      const double there = scene.length({from, to});
-      const double back = scene.length({to, from});
-      CHECK((std::isnan(there) ? std::isnan(back) : std::abs(there - back) < 1e-6));
+      if (scene.clearance(from) < radius_m + 0.002 || scene.clearance(to) < radius_m + 0.002) continue;
+      CAPTURE(scene_index, from.x, from.y, to.x, to.y);
+      const double found = scene.length({from, to});
+      const double over_points = many_points.length(from, to);
+      const double larger = scene.length({from, to}, radius_m + 0.002);
+      if (!std::isnan(over_points)) CHECK(found <= over_points + 1e-6);
+      if (!std::isnan(larger)) CHECK(over_points <= larger + 1e-6);
+      if (!std::isnan(found)) CHECK_THAT(scene.length({to, from}), WithinAbs(found, 1e-6));
+      ways += !std::isnan(found);
+      bent += found > toolkit::distance(from, to) + 0.01;
     }
   }
   CHECK(ways >= test::draws(40));
+  CHECK(bent >= test::draws(10));
 }
 
 }  // namespace shortest_way_test
