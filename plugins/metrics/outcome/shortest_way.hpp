@@ -1,148 +1,76 @@
 // SPDX-License-Identifier: MIT
-// shortest_way.hpp: the length of the shortest way of a disc between points in the static world.
+// shortest_way.hpp: the shortest ways of a world's robots from their starts through their goals among the static shapes.
 //
-// Theta* (Nash, Daniel, Koenig and Felner, AAAI 2007; Daniel et al., JAIR 39, 2010): A* over the cells of a grid whose
-// nodes may have any earlier node in line of sight as parent, so ways bend only at corners and do not follow the grid.
-// The found length is within about 1 % of the shortest. A cell is open if its centre is at least the disc's radius away
-// from every shape. Starts and goals keep their exact positions; their cells count as open.
+// A robot is the disc of its footprint's radius, and may touch. A start or goal nearer to a wall than that counts as
+// moved to free space, away from the nearest wall, and the move counts as a part of the way. Between two such points the
+// straight way counts as free if it comes no nearer to a wall than its ends.
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
 #include <dmrp/plugin.hpp>
-#include <dmrp/toolkit/grid_line.hpp>
-#include <dmrp/toolkit/grid_view.hpp>
+#include <dmrp/toolkit/rectangle.hpp>
 #include <dmrp/toolkit/vec2.hpp>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <utility>
-#include <vector>
+#include <map>
+#include <memory>
+
+#include "metrics/outcome/static_shapes.hpp"
+#include "metrics/outcome/tangent_graph.hpp"
 
 namespace dmrp::metrics {
 
-class ShortestWay {
+// One object for all trials of a metric: what it computed stays while the static shapes are the same.
+class ShortestTours {
  public:
-  // The grid must outlive this object.
-  explicit ShortestWay(const Grid& grid) : grid_(grid) {}
+  void begin(const World& world) {
+    if (shapes_ != nullptr && shapes_->are_those_of(world)) return;
+    graphs_.clear();
+    lengths_m_.clear();
+    shapes_ = std::make_unique<StaticShapes>(world);
+  }
 
-  // From the robot's start through its goals in order; NaN if there is no way.
-
-  double tour_length(const Robot& robot) {
+  // NaN if there is no way.
+  double length_m(const Robot& robot) {
     double sum_m = 0.0;
     Vec2 at = toolkit::position(robot.start);
     for (const Goal& goal : robot.goals()) {
       const Vec2 next = toolkit::position(goal.pose);
-      sum_m += length(at, next, robot.footprint->radius_m);
+      sum_m += kept_length_m(at, next, robot.footprint->radius_m);
       at = next;
     }
     return sum_m;
   }
 
-  // NaN if there is no way.
-
-  double length(Vec2 from, Vec2 to, double radius_m) {
-    radius_m_ = radius_m;
-    from_ = from;
-    to_ = to;
-    first_ = grid_.index_of(from);
-    last_ = grid_.index_of(to);
-    if (first_ == toolkit::no_cell || last_ == toolkit::no_cell) return undefined;
-    if (is_visible(from, to)) return toolkit::distance(from, to);
-
-    lengths_m_.assign(grid_.size(), std::numeric_limits<double>::infinity());
-    parents_.assign(grid_.size(), toolkit::no_cell);
-    settled_.assign(grid_.size(), 0);
-    queue_.clear();
-    lengths_m_[first_] = 0.0;
-    parents_[first_] = first_;
-    queue_.emplace_back(toolkit::distance(from, to), first_);
-    while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
-      const std::uint32_t cell = queue_.back().second;
-      queue_.pop_back();
-      if (settled_[cell]) continue;
-      settled_[cell] = 1;
-      if (cell == last_) return lengths_m_[cell];
-      expand(cell);
-    }
-    return undefined;
-  }
-
- private:
-  using Entry = std::pair<double, std::uint32_t>;  // estimated length of the whole way, cell
-
-  bool open(std::uint32_t cell) const {
-    return static_cast<double>(grid_.clearance(cell)) >= radius_m_ || cell == first_ || cell == last_;
-  }
-
-  bool is_visible(Vec2 from, Vec2 to) const {
-    return toolkit::for_each_cell_on_line(
-        grid_, from, to, [&](toolkit::Cell cell) { return grid_.contains(cell) && open(grid_.index(cell)); });
-  }
-
-  Vec2 position_of(std::uint32_t cell) const {
-    if (cell == first_) return from_;
-    if (cell == last_) return to_;
-    return grid_.center(cell);
-  }
-
-  void expand(std::uint32_t cell) {
-    const std::uint32_t parent = parents_[cell];
-    for (int direction = 0; direction < toolkit::direction_count; ++direction) {
-      const std::uint32_t next = grid_.neighbour(cell, direction);
-      if (next == toolkit::no_cell || settled_[next] || !open(next)) continue;
-      // directly from the parent if it is in sight, otherwise from the cell
-      for (const std::uint32_t from : {parent, cell}) {
-        if (!is_visible(position_of(from), position_of(next))) continue;
-        const double length_m = lengths_m_[from] + toolkit::distance(position_of(from), position_of(next));
-        if (length_m < lengths_m_[next]) {
-          lengths_m_[next] = length_m;
-          parents_[next] = from;
-          queue_.emplace_back(length_m + toolkit::distance(position_of(next), to_), next);
-          std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
-        }
-        break;
-      }
-    }
-  }
-
-  toolkit::GridView grid_;
-  double radius_m_ = 0.0;
-  Vec2 from_ = {0.0, 0.0};
-  Vec2 to_ = {0.0, 0.0};
-  std::uint32_t first_ = 0;
-  std::uint32_t last_ = 0;
-  std::vector<double> lengths_m_;       // by cell: of the best way found so far
-  std::vector<std::uint32_t> parents_;  // by cell
-  std::vector<std::uint8_t> settled_;   // by cell
-  std::vector<Entry> queue_;
-};
-
-// The shortest ways of a world's robots from their starts through their goals among the static shapes.
-class ShortestTours {
- public:
-  // Both outlive this object.
-  ShortestTours(const dmrp_walking_grid& walking_grid, const World& world) : world_(world) {
-    // only its clearance counts, which is the same for every radius
-    const dmrp_walking_grid_request request = {sizeof(request), 0, cell_m, world->person_radius_m};
-    const Grid* grid = walking_grid.grid(&walking_grid, &request);
-    if (grid == nullptr) throw std::runtime_error("the host has no walking grid for this world");
-    search_.emplace(*grid);
-  }
-
-  // NaN if there is no way.
-  double length_m(std::size_t robot) { return search_->tour_length(world_.robots()[robot]); }
-
   // At v_max.
-  double least_time_s(std::size_t robot) { return length_m(robot) / world_.robots()[robot].limits->v_max; }
+  double least_time_s(const Robot& robot) { return length_m(robot) / robot.limits->v_max; }
 
  private:
-  static constexpr double cell_m = 0.25;  // of the walking grid
+  static constexpr std::size_t most_kept = 100'000;
 
-  const World& world_;
-  std::optional<ShortestWay> search_;
+  double kept_length_m(Vec2 from, Vec2 to, double radius_m) {
+    const std::array<double, 5> key = {from.x, from.y, to.x, to.y, radius_m};
+    const auto kept = lengths_m_.find(key);
+    if (kept != lengths_m_.end()) return kept->second;
+    if (lengths_m_.size() == most_kept) lengths_m_.clear();
+    return lengths_m_[key] = leg_length_m(from, to, radius_m);
+  }
+
+  double leg_length_m(Vec2 from, Vec2 to, double radius_m) {
+    if (!toolkit::contains(shapes_->border(), from) || !toolkit::contains(shapes_->border(), to)) return undefined;
+    auto& graph = graphs_[radius_m];
+    if (graph == nullptr) graph = std::make_unique<TangentGraph>(*shapes_, radius_m);
+    const FreeSpace& space = graph->space();
+    const double kept_m = std::min(space.clearance_m(from), space.clearance_m(to));
+    if (from == to || (kept_m > touching_m && space.is_clear({from, to}, kept_m))) return toolkit::distance(from, to);
+    Vec2 free_from = from;
+    Vec2 free_to = to;
+    if (!space.move_clear(free_from) || !space.move_clear(free_to)) return undefined;
+    return toolkit::distance(from, free_from) + graph->length_m(free_from, free_to) + toolkit::distance(free_to, to);
+  }
+
+  std::unique_ptr<StaticShapes> shapes_;
+  std::map<double, std::unique_ptr<TangentGraph>> graphs_;  // by radius
+  std::map<std::array<double, 5>, double> lengths_m_;       // by ends and radius
 };
 
 }  // namespace dmrp::metrics

@@ -17,19 +17,13 @@ class Spl final : public Metric {
         .value("spl", "1", higher_is_better, system_and_robots,
                "S l / max(p, l): S as success, l = shortest_length, p = path_length; 0 without success", share_range)
         .value("shortest_length", "m", Direction::none, system_and_robots,
-               "l: the shortest way of the robot's disc from its start through its goals among the static shapes, "
-               "within about 1 %; system: sum over robots; undefined if there is no way",
+               "l: the shortest way of the robot's disc from its start through its goals among the static shapes; "
+               "system: sum over robots; undefined if there is no way",
                never_negative)
         .value("success_at", "1", higher_is_better, Subjects::system,
                "share of robots that succeed within 1.5, 2 and 3 times their least time, shortest_length at v_max",
                share_range)
-        .curve()
-        .needs(DMRP_EXT_WALKING_GRID);
-  }
-
-  Status start(const Start&) override {
-    walking_grid_ = &extension<dmrp_walking_grid>();
-    return Status::ok;
+        .curve();
   }
 
   void begin(const MetricTrial&) override { driven_.begin(world().robots().size()); }
@@ -37,10 +31,10 @@ class Spl final : public Metric {
   void observe(const Sample& sample) override { driven_.observe(sample); }
 
   void finish(const TrialEnd& end, MetricSink& sink) override {
-    ShortestTours tours(*walking_grid_, world());
+    tours_.begin(world());
     std::vector<double> spl, shortest_m;
     for (std::size_t robot = 0; robot < world().robots().size(); ++robot) {
-      shortest_m.push_back(tours.length_m(robot));
+      shortest_m.push_back(tours_.length_m(world().robots()[robot]));
       const double longer_m = std::max(driven_.of_robot(robot), shortest_m.back());
       const double ratio = longer_m == 0.0 ? 1.0 : shortest_m.back() / longer_m;
       spl.push_back(succeeded(end.robots[robot]) ? ratio : 0.0);
@@ -59,7 +53,7 @@ class Spl final : public Metric {
   }
 
  private:
-  const dmrp_walking_grid* walking_grid_ = nullptr;
+  ShortestTours tours_;
   DrivenLength driven_;
 };
 

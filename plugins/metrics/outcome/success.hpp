@@ -31,13 +31,7 @@ class Success final : public Metric {
                "safe success weighted by completion time: S min(1, l / (v_max t)): S as safe_success, l = "
                "shortest_length (of SPL), t = completion_time; 1 where l is 0 and 0 without safe success; undefined if "
                "there is no way",
-               share_range)
-        .needs(DMRP_EXT_WALKING_GRID);
-  }
-
-  Status start(const Start&) override {
-    walking_grid_ = &extension<dmrp_walking_grid>();
-    return Status::ok;
+               share_range);
   }
 
   void begin(const MetricTrial&) override {
@@ -81,12 +75,12 @@ class Success final : public Metric {
   }
 
  private:
-  std::vector<double> weighted_by_time(std::vector<double> safe_success, const TrialEnd& end) const {
+  std::vector<double> weighted_by_time(std::vector<double> safe_success, const TrialEnd& end) {
     if (sum_of_defined(safe_success) > 0.0) {
-      ShortestTours tours(*walking_grid_, world());
+      tours_.begin(world());
       for (std::size_t robot = 0; robot < safe_success.size(); ++robot)
         if (safe_success[robot] > 0.0) {
-          const double least_s = tours.least_time_s(robot);
+          const double least_s = tours_.least_time_s(world().robots()[robot]);
           safe_success[robot] = least_s == 0.0 ? 1.0 : most_one(least_s / in_seconds(end.robots[robot].arrival_ns));
         }
     }
@@ -121,7 +115,7 @@ class Success final : public Metric {
     }
   }
 
-  const dmrp_walking_grid* walking_grid_ = nullptr;
+  ShortestTours tours_;
   ContactEnds contacts_;
   std::vector<char> at_fault_;  // by robot: whether it had a contact at its fault
   std::vector<char> touched_;   // by robot: whether it had any contact

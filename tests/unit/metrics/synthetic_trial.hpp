@@ -24,7 +24,6 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/unit/given_walking_grid.hpp"
 #include "tests/unit/plugin_under_test.hpp"
 
 namespace dmrp::test {
@@ -88,7 +87,7 @@ using Points = std::vector<dmrp_vec2>;
 class SyntheticTrial {
  public:
   // Robots are discs of 0.25 m, brake by 1 m/s^2 and have one goal each at the origin; the world reaches from (-1000, -1000) to (1000, 1000)
-  // and has one shape, a square of 2 m about (900, 900). All cells of the walking grid about the origin are free.
+  // and has one shape, a square of 2 m about (900, 900).
   explicit SyntheticTrial(std::size_t robot_count) : robots_(robot_count) {
     footprint_->radius_m = footprint_->inscribed_radius_m = 0.25;
     for (dmrp_robot& robot : robots_) {
@@ -97,7 +96,6 @@ class SyntheticTrial {
     }
     for (std::size_t robot = 0; robot < robot_count; ++robot) route(robot, {0, 0, 0}, {{0, 0, std::nan("")}});
     box("shelf B", {899, 899}, {901, 901});
-    walking_grid({-16, -16}, 4.0, std::vector<std::vector<float>>(8, std::vector<float>(8, 5.0F)));
   }
   SyntheticTrial(SyntheticTrial&&) =
       default;  // the targets of plans' pointers keep their addresses; a copy would point into the original
@@ -153,18 +151,6 @@ class SyntheticTrial {
     shapes_.push_back(shape);
     return *this;
   }
-  // The walking grid: square cells from `origin` on, rows from the lowest, with the clearance of each cell's centre.
-  SyntheticTrial& walking_grid(dmrp_vec2 origin, double resolution_m, const std::vector<std::vector<float>>& rows) {
-    clearance_.clear();
-    for (const std::vector<float>& row : rows) clearance_.insert(clearance_.end(), row.begin(), row.end());
-    walking_grid_->width = static_cast<std::uint32_t>(rows.front().size());
-    walking_grid_->height = static_cast<std::uint32_t>(rows.size());
-    walking_grid_->resolution_m = resolution_m;
-    walking_grid_->origin = origin;
-    walking_grid_->clearance = clearance_.data();
-    return *this;
-  }
-
   // The planning grid: free cells of 1 m from (0, 0) on, with all moves between them. Without it there are no cells.
   SyntheticTrial& planning_grid(std::uint32_t columns, std::uint32_t rows) {
     free_.assign(static_cast<std::size_t>(columns) * rows, 1);
@@ -322,7 +308,6 @@ class SyntheticTrial {
     world.planning_grid = planning_grid_.get();
     return world;
   }
-  const dmrp_grid& walking_grid() const { return *walking_grid_; }
   std::size_t robot_count() const { return robots_.size(); }
   const dmrp_plan* first_plan() const { return plans_.empty() ? nullptr : &plans_.front().c; }
 
@@ -385,14 +370,12 @@ class SyntheticTrial {
   std::unique_ptr<dmrp_limits> limits_ =
       std::make_unique<dmrp_limits>(dmrp_limits{sizeof(dmrp_limits), 0, 0.0, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
   std::unique_ptr<Longer<dmrp_polygon>> part_ = std::make_unique<Longer<dmrp_polygon>>();
-  std::unique_ptr<dmrp_grid> walking_grid_ = std::make_unique<dmrp_grid>();
   std::unique_ptr<dmrp_grid> planning_grid_ =
       std::make_unique<dmrp_grid>(dmrp_grid{sizeof(dmrp_grid), 0, 0, 0, 1.0, {0, 0}, nullptr, nullptr, nullptr});
   std::deque<std::vector<Longer<dmrp_goal>>> goals_;
   std::deque<std::vector<dmrp_waypoint>> courses_;  // that controllers were handed
   std::deque<dmrp_path> paths_;
   std::deque<std::vector<dmrp_vec2>> outlines_;
-  std::vector<float> clearance_;
   std::vector<std::uint8_t> free_, edges_;  // of the planning grid
   std::vector<dmrp_robot> robots_;
   std::vector<dmrp_shape> shapes_;
@@ -492,8 +475,6 @@ inline Measurement measure_once(PluginUnderTest& plugin, const SyntheticTrial& t
   const dmrp_metric_trial beginning = {sizeof(dmrp_metric_trial), 0, trial.first_plan()};
   const dmrp_trial_end end = trial.trial_end();
   CheckingSink sink(traits_of<dmrp_metric_traits>(plugin.descriptor()), trial.robot_count(), measurement);
-  const GivenWalkingGrid walking_grid(trial.walking_grid());
-  walking_grid.offer(plugin.host());
 
   ok(plugin.start(world));
   ok(metric.begin(plugin.self(), &beginning));
