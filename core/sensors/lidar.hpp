@@ -28,6 +28,7 @@ class Lidar {
   Lidar(const LidarSettings& settings, std::shared_ptr<const StaticGeometry> geometry);
 
   std::uint32_t beams() const { return settings_.beams; }
+  double range_m() const { return settings_.range_max_m; }
 
   // Fills the beams() elements of `ranges` as in dmrp_scan. The bodies, discs and convex polygons, must not contain the
   // robot with the sensor.

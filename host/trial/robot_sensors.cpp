@@ -3,17 +3,17 @@
 
 #include "core/scene/footprint.hpp"
 #include "core/sensors/sensor_noise.hpp"
-#include "core/sensors/visibility.hpp"
 
 namespace dmrp::host {
 
-RobotSensors::RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
-    : world_(world),
+RobotSensors::RobotSensors(core::Sight& sight, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+    : sight_(sight),
+      world_(sight.world()),
       robot_(robot),
       lidar_(lidar),
       seed_(seed),
-      odometry_(world.robot_settings(robot).odometry, seed, robot, world.robots()[robot].pose,
-                world.robot_settings(robot).drive),
+      odometry_(world_.robot_settings(robot).odometry, seed, robot, world_.robots()[robot].pose,
+                world_.robot_settings(robot).drive),
       ranges_(lidar.beams()) {}
 
 void RobotSensors::subscribe_to_costmap() {
@@ -40,7 +40,7 @@ void RobotSensors::tick() {
 
 const dmrp_scan& RobotSensors::scan() {
   if (!scan_is_fresh_) {
-    core::scan_from(world_, robot_, lidar_, ranges_);
+    sight_.scan_from(robot_, lidar_, ranges_);
     core::disturb_scan(world_.robot_settings(robot_).lidar, {seed_, robot_, world_.t_ns()}, ranges_);
     scan_ = lidar_.describe(world_.t_ns(), ranges_);
     scan_is_fresh_ = true;
@@ -50,7 +50,7 @@ const dmrp_scan& RobotSensors::scan() {
 
 const std::vector<dmrp_agent>& RobotSensors::agents() {
   if (!agents_are_fresh_) {
-    core::visible_agents(world_, robot_, agents_);
+    sight_.visible_agents(robot_, agents_);
     core::disturb_agents(world_.settings().tracking_velocity_noise_sd, {seed_, robot_, world_.t_ns()}, agents_);
     for (dmrp_agent& agent : agents_) {
       agent.pose = odometry_.to_estimated(agent.pose);

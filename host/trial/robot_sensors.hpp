@@ -14,6 +14,7 @@
 #include "core/sensors/lidar.hpp"
 #include "core/sensors/obstacle_clusters.hpp"
 #include "core/sensors/odometry.hpp"
+#include "core/sensors/visibility.hpp"
 #include "core/world/world.hpp"
 #include "host/guests/inside/sensor_readings.hpp"
 
@@ -23,8 +24,8 @@ namespace dmrp::host {
 // the costmap, which accumulates scans, on every scan once it is subscribed to.
 class RobotSensors {
  public:
-  // `world` and `lidar` outlive it; all robots share the lidar. `seed` is the trial's.
-  RobotSensors(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed);
+  // `sight` and `lidar` outlive it; all robots share them. `seed` is the trial's.
+  RobotSensors(core::Sight& sight, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed);
   RobotSensors(const RobotSensors&) = delete;
   RobotSensors& operator=(const RobotSensors&) = delete;
 
@@ -53,6 +54,7 @@ class RobotSensors {
   const dmrp_obstacle_cluster_list& clusters();
 
  private:
+  core::Sight& sight_;
   const core::World& world_;
   std::uint32_t robot_;
   core::Lidar& lidar_;

@@ -89,7 +89,7 @@ void TrialPlugins::start_controllers(Guests& guests, const PluginUse& use, std::
   const auto robot_count = static_cast<std::uint32_t>(world_.robots().size());
   central_ = use.info.has_flag(DMRP_FLAG_CENTRAL);
   for (std::uint32_t i = 0; i < robot_count; ++i)
-    controllers_.push_back({{}, std::make_unique<RobotSensors>(world_, i, lidar_of(i), seed)});
+    controllers_.push_back({{}, std::make_unique<RobotSensors>(sight_, i, lidar_of(i), seed)});
   for (std::uint32_t i = 0; i < robot_count; ++i) {
     InstanceHandle& handle = controllers_[i].handle;
     if (central_ && i > 0) {

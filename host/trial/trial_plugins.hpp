@@ -134,7 +134,8 @@ class TrialPlugins {
   InstanceHandle planner_;                   // no instance where it is not asked
   const PluginUse* fallback_use_ = nullptr;  // nullptr without one
   InstanceHandle fallback_;
-  InstanceHandle people_;                      // no instance: they stand
+  InstanceHandle people_;  // no instance: they stand
+  core::Sight sight_{world_};
   std::map<std::string, core::Lidar> lidars_;  // by type of robot
   core::TraceEncoder* scanned_trace_;          // nullptr if no scans are recorded
   core::TraceEncoder* annotated_trace_;        // nullptr if no annotations are recorded

@@ -49,8 +49,8 @@ host::Instance& start_people(const TrialUnderTest& trial, host::InstancePool& po
 
 // One robot while its trial is recorded.
 struct Driver {
-  Driver(const core::World& world, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
-      : sensors(std::make_shared<host::RobotSensors>(world, robot, lidar, seed)),
+  Driver(core::Sight& sight, std::uint32_t robot, core::Lidar& lidar, std::uint64_t seed)
+      : sensors(std::make_shared<host::RobotSensors>(sight, robot, lidar, seed)),
         extensions(host::readings_of(sensors_of(robot))),
         recorder([this](const std::string& id) { return extensions.extension(id); }) {}
 
@@ -114,7 +114,7 @@ class Recording {
 
  private:
   void start_driver(std::uint32_t robot, host::InstancePool& pool) {
-    drivers_.push_back(std::make_unique<Driver>(world_, robot, lidar_, trial_.seed));
+    drivers_.push_back(std::make_unique<Driver>(sight_, robot, lidar_, trial_.seed));
     Driver& driver = *drivers_.back();
     driver.controller = &pool.get(trial_.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
     driver.table = driver.controller->table<dmrp_local_controller>();
@@ -209,6 +209,7 @@ class Recording {
 
   const TrialUnderTest& trial_;
   core::World world_;
+  core::Sight sight_{world_};
   core::Lidar lidar_;
   core::Referee referee_;
   std::vector<core::CoursePlace> places_;

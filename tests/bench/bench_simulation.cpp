@@ -93,10 +93,11 @@ class PeopleVelocities {
   std::vector<dmrp_vec2> velocities_;
 };
 
-void sense(const core::World& world, core::Lidar& lidar, std::vector<std::unique_ptr<core::LocalCostmap>>& costmaps,
+void sense(core::Sight& sight, core::Lidar& lidar, std::vector<std::unique_ptr<core::LocalCostmap>>& costmaps,
            std::vector<float>& ranges) {
+  const core::World& world = sight.world();
   for (std::uint32_t robot = 0; robot < world.robots().size(); ++robot) {
-    core::scan_from(world, robot, lidar, ranges);
+    sight.scan_from(robot, lidar, ranges);
     if (!costmaps.empty()) costmaps[robot]->update(world.robots()[robot].pose, lidar.describe(world.t_ns(), ranges));
   }
 }
@@ -110,6 +111,7 @@ double real_time_factor(const Setup& setup) {
   const core::PlanningGrid walking_grid = core::build_walking_grid(*geometry, scenario.people.radius_m);
   const core::FlowRoutes routes = core::find_flow_routes(scenario, walking_grid);
   core::World world(scenario, robot, settings, geometry, routes, 1);
+  core::Sight sight(world);
   PeopleVelocities people(setup, *geometry, walking_grid);
   core::Lidar lidar(robot.lidar, geometry);
   std::vector<float> ranges(lidar.beams());
@@ -124,7 +126,7 @@ double real_time_factor(const Setup& setup) {
   const auto steps = static_cast<std::int64_t>(setup.duration_s * 1e9) / settings.step_ns;
   for (std::int64_t step = 0; step < steps; ++step) {
     if (step % steps_per_tick == 0) {
-      if (setup.sensors != Sensors::none) sense(world, lidar, costmaps, ranges);
+      if (setup.sensors != Sensors::none) sense(sight, lidar, costmaps, ranges);
       for (std::uint32_t i = 0; i < scenario.robots.size(); ++i)
         world.set_command(i, {0.6, 0.0, i % 2 == 0 ? 0.15 : -0.15});
     }

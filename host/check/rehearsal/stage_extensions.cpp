@@ -13,10 +13,9 @@ namespace dmrp::host {
 
 namespace {
 
-std::vector<std::shared_ptr<RobotSensors>> sensors_of(Stage& stage, core::Lidar& lidar, std::uint32_t robots) {
+std::vector<std::shared_ptr<RobotSensors>> sensors_of(core::Sight& sight, core::Lidar& lidar, std::uint32_t robots) {
   std::vector<std::shared_ptr<RobotSensors>> sensors;
-  for (std::uint32_t i = 0; i < robots; ++i)
-    sensors.push_back(std::make_shared<RobotSensors>(stage.world, i, lidar, 1));
+  for (std::uint32_t i = 0; i < robots; ++i) sensors.push_back(std::make_shared<RobotSensors>(sight, i, lidar, 1));
   return sensors;
 }
 
@@ -65,8 +64,9 @@ StageExtensions::StageExtensions(Instance& instance, const PluginInfo& info, Sta
       info_(info),
       stage_(stage),
       annotations_(annotated_, 0),
+      sight_(stage.world),
       lidar_(stage.variant.types.standard().lidar, stage.variant.geometry),
-      sensors_(sensors_of(stage, lidar_, robots)),
+      sensors_(sensors_of(sight_, lidar_, robots)),
       sensor_readings_(readings_of(sensors_)),
       grown_(stage.settings.grown_extension_bytes) {
   instance.offer([this](std::string_view id) { return find(id); });

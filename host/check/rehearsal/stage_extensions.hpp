@@ -71,6 +71,7 @@ class StageExtensions {
   Stage& stage_;
   AnnotationBuffer annotated_{true};  // nobody reads it
   Annotations annotations_;
+  core::Sight sight_;
   core::Lidar lidar_;
   std::vector<std::shared_ptr<RobotSensors>> sensors_;
   SensorReadings sensor_readings_;

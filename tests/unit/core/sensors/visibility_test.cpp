@@ -26,26 +26,29 @@ TEST_CASE("robots scan the world and observe agents according to the tracking") 
   World world(scenario, RobotSettings{}, settings, geometry, 1);
   Lidar lidar(RobotSettings{}.lidar, geometry);
   std::vector<float> ranges(lidar.beams());
-  scan_from(world, 0, lidar, ranges);
+  Sight sight(world);
+  sight.scan_from(0, lidar, ranges);
   CHECK(ranges[180] == Approx(4.0));                // straight ahead: the wall hides the second robot
   CHECK(ranges[270] == Approx(5.75).margin(0.01));  // to the left: the third
 
   std::vector<dmrp_agent> agents;
-  visible_agents(world, 0, agents);
+  sight.visible_agents(0, agents);
   REQUIRE_FALSE(agents.empty());
   CHECK(agents[0].kind == DMRP_AGENT_ROBOT);
   CHECK(agents[0].id == 2);
   for (const dmrp_agent& agent : agents) CHECK((agent.kind == DMRP_AGENT_PERSON || agent.id == 2));
 
   settings.tracking = Tracking::all;
-  visible_agents(World(scenario, RobotSettings{}, settings, geometry, 1), 1, agents);
+  const World all(scenario, RobotSettings{}, settings, geometry, 1);
+  Sight(all).visible_agents(1, agents);
   REQUIRE(agents.size() == 4);
   CHECK(agents[0].id == 0);
   CHECK(agents[2].id == 3);
   CHECK(agents[3].kind == DMRP_AGENT_PERSON);
 
   settings.tracking = Tracking::none;
-  visible_agents(World(scenario, RobotSettings{}, settings, geometry, 1), 1, agents);
+  const World none(scenario, RobotSettings{}, settings, geometry, 1);
+  Sight(none).visible_agents(1, agents);
   CHECK(agents.empty());
 }
 

@@ -22,7 +22,8 @@ TEST_CASE("a controller sees how far the wheels of its car are turned") {
   const host::VariantWorld variant(experiment, experiment.scenarios[0]);
   core::World world(variant.scenario, variant.types, variant.simulation, variant.geometry, 1);
   core::Lidar lidar(car.lidar, variant.geometry);
-  host::RobotSensors sensors(world, 0, lidar, 1);
+  core::Sight sight(world);
+  host::RobotSensors sensors(sight, 0, lidar, 1);
   const auto steering_angle = [&] { return observation_of(0, {}, variant, world, sensors).steering_angle; };
   CHECK(steering_angle() == 0.0);
   world.set_command(0, {0.2, 0.0, 0.2});

@@ -27,6 +27,7 @@ struct Hall {
   core::Scenario scenario;
   std::shared_ptr<const core::StaticGeometry> geometry;
   std::unique_ptr<core::World> world;
+  std::unique_ptr<core::Sight> sight;
   std::unique_ptr<core::Lidar> lidar;
 
   void open() {
@@ -41,6 +42,7 @@ struct Hall {
                        {"hidden", {7.5, 6.0, 0.0}, {{11.0, 7.0, any_heading}}}};
     geometry = std::make_shared<const core::StaticGeometry>(scenario);
     world = std::make_unique<core::World>(scenario, robot, simulation, geometry, seed);
+    sight = std::make_unique<core::Sight>(*world);
     lidar = std::make_unique<core::Lidar>(robot.lidar, geometry);
   }
 
@@ -53,7 +55,7 @@ struct Hall {
 // The sensors of one of its robots, and the extensions of the controller that drives it.
 struct Sensors {
   explicit Sensors(Hall& hall, std::uint64_t trial_seed = seed, std::uint32_t robot = 0)
-      : readings(std::make_shared<RobotSensors>(*hall.world, robot, *hall.lidar, trial_seed)),
+      : readings(std::make_shared<RobotSensors>(*hall.sight, robot, *hall.lidar, trial_seed)),
         extensions(readings_of(by_robot(readings, robot))) {}
 
   static std::vector<std::shared_ptr<RobotSensors>> by_robot(std::shared_ptr<RobotSensors> readings,
