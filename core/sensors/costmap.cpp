@@ -173,7 +173,7 @@ void LocalCostmap::update(const dmrp_pose& sensor, const dmrp_scan& scan) {
   }
   // A scan clears along its beams, and then marks. Most of what it would clear it marks again, so the marks come first.
   if (++scan_ == 0) {
-    std::fill(scans_.begin(), scans_.end(), 0U);
+    std::fill(scans_.begin(), scans_.end(), std::uint8_t{0});
     scan_ = 1;
   }
   for (std::uint32_t beam = 0; beam < scan.count; ++beam) {

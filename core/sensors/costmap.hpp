@@ -65,8 +65,8 @@ class LocalCostmap {
   std::vector<std::uint8_t> lethal_;  // for each cell the misses that still clear it; 0: free
   std::vector<std::uint32_t> cells_;  // the lethal cells, by index
   std::vector<std::uint8_t> misses_;  // of cells_, while they roll
-  std::vector<std::uint32_t> scans_;  // for each cell the last scan that marked it
-  std::uint32_t scan_ = 0;
+  std::vector<std::uint8_t> scans_;   // for each cell the last scan that marked it; 0: none of the last 255
+  std::uint8_t scan_ = 0;
 
   // Directions of the beams in the sensor's frame, for scans with these angles, and in cells per metre for this scan.
   double angle_min_ = 0.0;
