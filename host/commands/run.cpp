@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,44 @@ class ProgressLines {
   bool wanted_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
+};
+
+// Writes the rows of all trials that finish within a tenth of a second in one transaction, since small trials take less
+// time than the disk. A run that is killed in between repeats them.
+class RowWriter {
+ public:
+  explicit RowWriter(ResultsDatabase& database) : database_(database) {}
+  RowWriter(const RowWriter&) = delete;
+  RowWriter& operator=(const RowWriter&) = delete;
+  ~RowWriter() {
+    try {
+      flush();
+    } catch (const std::exception&) {
+      // it is the disk that fails, as in what ends the run
+    }
+  }
+
+  void add(TrialRecord&& trial) {
+    if (rows_.empty()) begun_ = Clock::now();
+    rows_.push_back(std::move(trial));
+    flush_if_due();
+  }
+
+  void flush_if_due() {
+    if (Clock::now() - begun_ >= std::chrono::milliseconds(100)) flush();
+  }
+
+  void flush() {
+    if (!rows_.empty()) database_.write(rows_);
+    rows_.clear();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  ResultsDatabase& database_;
+  std::vector<TrialRecord> rows_;
+  Clock::time_point begun_;
 };
 
 // A line for the terminal.
@@ -271,25 +310,29 @@ int run_command(const RunOptions& options) {
   };
   ProgressLines lines(!options.progress.empty(), trials.left());
   lines.begin(files.directory());
+  RowWriter rows(database);
   const SupervisorSettings settings = {options.jobs, files.directory(), count};
   const bool is_one = combinations(experiment).size() == 1;
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) {
-                                   database.write(trial);
                                    lines.add(trial.id, trial.outcome);
                                    cost.add(trial);
                                    progress.add(fault_note(trial), is_one ? "" : place_of(trial));
+                                   rows.add(std::move(trial));
                                  },
                                  [&](std::uint64_t trial, const FaultRecord& fault) {
+                                   rows.flush();
                                    database.add_fault(trial, fault);
                                    progress.note(fault_note(trial, fault));
                                  },
                                  [&](const std::string& text) { progress.note("warning: " + text); },
                                  [&] {
+                                   rows.flush_if_due();
                                    if (cost.is_known()) begin_progress();
                                    progress.refresh();
                                    return true;
                                  }};
   const RunEnding ending = supervise(experiment, std::move(trials), settings, sinks);
+  rows.flush();
   begin_progress();
   progress.finish();
   const RunResults results = read_results(std::move(database), layout, files.directory());

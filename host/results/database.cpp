@@ -380,20 +380,22 @@ ResultsDatabase ResultsDatabase::open_read_only(const std::filesystem::path& pat
   return database;
 }
 
-void ResultsDatabase::write(const TrialRecord& trial) {
+void ResultsDatabase::write(std::span<const TrialRecord> trials) {
   SqliteTransaction transaction(connection_);
-  SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
-  // and what another program left of it when it deleted the trial alone
-  for (const char* rest : {"DELETE FROM value WHERE trial_id = ?", "DELETE FROM event WHERE trial_id = ?",
-                           "DELETE FROM fault WHERE trial_id = ?", "DELETE FROM swept WHERE trial_id = ?",
-                           "DELETE FROM timing WHERE trial_id = ?"})
-    SqliteStatement(connection_, rest).bind(as_signed(trial.id)).run();
-  write_trial(connection_, trial);
-  write_swept(connection_, trial);
-  write_values(connection_, trial);
-  write_events(connection_, trial);
-  write_faults(connection_, trial.id, trial.faults);
-  write_timing(connection_, trial);
+  for (const TrialRecord& trial : trials) {
+    SqliteStatement(connection_, "DELETE FROM trial WHERE id = ?").bind(as_signed(trial.id)).run();
+    // and what another program left of it when it deleted the trial alone
+    for (const char* rest : {"DELETE FROM value WHERE trial_id = ?", "DELETE FROM event WHERE trial_id = ?",
+                             "DELETE FROM fault WHERE trial_id = ?", "DELETE FROM swept WHERE trial_id = ?",
+                             "DELETE FROM timing WHERE trial_id = ?"})
+      SqliteStatement(connection_, rest).bind(as_signed(trial.id)).run();
+    write_trial(connection_, trial);
+    write_swept(connection_, trial);
+    write_values(connection_, trial);
+    write_events(connection_, trial);
+    write_faults(connection_, trial.id, trial.faults);
+    write_timing(connection_, trial);
+  }
   transaction.commit();
   if (connection_.has_moved())
     throw MachineError(connection_.file() + ": was deleted or replaced while results were written to it");

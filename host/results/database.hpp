@@ -25,8 +25,9 @@ class ResultsDatabase {
   // Shows the trials that are written at this moment, whatever a run adds later.
   static ResultsDatabase open_read_only(const std::filesystem::path& path);
 
-  // Writes the whole trial or nothing; replaces a trial with the same id.
-  void write(const TrialRecord& trial);
+  // Writes these trials whole, or none; replaces trials with the same ids.
+  void write(std::span<const TrialRecord> trials);
+  void write(const TrialRecord& trial) { write({&trial, 1}); }
 
   // Nothing more is written: from then on it is one file, beside which those who read it leave none.
   void finish();
