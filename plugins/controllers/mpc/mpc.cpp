@@ -105,7 +105,11 @@ Status Mpc::control(const Observation& now, Command& command) {
   const std::optional<int> solver_iterations = plan({{now, obstacles, footprint, share_evasion}, map}, *target);
   if (!solver_iterations) {
     trajectory_.clear();
-    if (is_standing) return Status::ok;
+    if (is_standing) {
+      // a trajectory that still has to turn comes closer to what it stands at first
+      if (make_room && !is_car_like(now.limits) && stands_at_wall(now)) turn_.begin(route_, now);
+      return Status::ok;
+    }
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
@@ -205,6 +209,13 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
 bool Mpc::has_room(const Observation& now, const Pose& at) const {
   return std::all_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
     return separation(now.footprint, at, obstacle, 0.0).distance_m >= min_obstacle_dist;
+  });
+}
+
+// Whether it is nearer to an obstacle that is no agent than trajectories keep.
+bool Mpc::stands_at_wall(const Observation& now) const {
+  return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
+    return !obstacle.is_agent && separation(now.footprint, now.pose, obstacle, 0.0).distance_m < min_obstacle_dist;
   });
 }
 

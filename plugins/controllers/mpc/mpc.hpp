@@ -102,6 +102,7 @@ class Mpc final : public PathController {
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool has_room(const Observation& now, const Pose& at) const;
+  bool stands_at_wall(const Observation& now) const;
   void spread_guide(const Observation& now, const CostmapView& map, Vec2 to);
   void pose_problem(const Observation& now, const CostmapView& map, const Target& target);
   double share_in_gaps(const Observation& now, const CostmapView& map, Vec2 goal);

@@ -26,13 +26,17 @@ constexpr double slow_share = 0.5;
 
 }  // namespace
 
-bool TurnInPlace::begin_if_slow(const std::vector<Vec2>& route, const Observation& now) {
-  if (!is_holonomic(now.limits)) return false;
+void TurnInPlace::begin(const std::vector<Vec2>& route, const Observation& now) {
   const Vec2 robot = toolkit::position(now.pose);
   const auto beyond = std::find_if(route.begin(), route.end(),
                                    [robot](Vec2 point) { return toolkit::distance(robot, point) > face_ahead_m; });
-  if (beyond == route.end()) return false;
-  heading_ = toolkit::bearing(robot, *beyond);
+  if (beyond != route.end()) heading_ = toolkit::bearing(robot, *beyond);
+}
+
+bool TurnInPlace::begin_if_slow(const std::vector<Vec2>& route, const Observation& now) {
+  if (!is_holonomic(now.limits)) return false;
+  begin(route, now);
+  if (!heading_) return false;
   const Vec2 way = toolkit::from_angle(toolkit::difference(now.pose.theta, *heading_));
   const double lengthwise_m_s = way.x > 0.0 ? now.limits.v_max : -now.limits.v_min;
   constexpr double least = 1e-9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// turn_in_place.hpp: the turn of a standing holonomic robot before it drives off.
+// turn_in_place.hpp: the turn of a standing robot that cannot drive off as it faces.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,11 @@ class TurnInPlace {
  public:
   void reset() { heading_.reset(); }
 
-  // Begins it toward the way of a holonomic robot, which keeps its heading in a trajectory, if that would be slow, because
-  // it is slower backwards or sideways. Returns whether it turns.
+  // Toward the way.
+  void begin(const std::vector<Vec2>& route, const Observation& now);
+
+  // Begins it for a holonomic robot, which keeps its heading in a trajectory, if that would be slow in the direction of its
+  // way, because it is slower backwards or sideways. Returns whether it turns.
   bool begin_if_slow(const std::vector<Vec2>& route, const Observation& now);
 
   // The command of the turn. False if there is none, or if it ends or is blocked.
