@@ -3,8 +3,8 @@
 #pragma once
 
 #include "metrics/measure/bases.hpp"
+#include "metrics/measure/nearest_bodies.hpp"
 #include "metrics/measure/nearest_wall.hpp"
-#include "metrics/measure/surface_distance.hpp"
 
 namespace dmrp::metrics {
 
@@ -21,6 +21,7 @@ struct ClearanceTo {
 
 struct ClearanceOfRobot {
   NearestWall wall;
+  NearestInTime robot, person;
   ClearanceTo walls, robots, people;
   TimeCount danger, danger_of_robots, danger_of_people;
 };
@@ -71,6 +72,12 @@ class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
     for (ClearanceOfRobot& own : states_) own.wall.begin(world());
   }
 
+  void observe(const Sample& sample) override {
+    robots_.observe_robots(world(), sample);
+    people_.observe_people(sample);
+    ActiveTimeMetric::observe(sample);
+  }
+
   void finish(const TrialEnd&, MetricSink& sink) override {
     give_distances(sink, "clearance_static_min", "clearance_static_mean", &ClearanceOfRobot::walls);
     give_distances(sink, "clearance_robot_min", "clearance_robot_mean", &ClearanceOfRobot::robots);
@@ -87,17 +94,11 @@ class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
   }
 
   void add_step(ClearanceOfRobot& own, std::size_t robot, const Sample& sample) override {
-    const Outline body = outline_of(world().robots()[robot], sample.robots[robot]);
+    const Outline& body = robots_[robot];
     const double to_wall_m = body.parts.empty() ? own.wall.find(body.disc.center).distance_m - body.disc.radius_m
                                                 : distance_to_walls(body, world());
     own.walls.add(to_wall_m, sample.dt_ns);
     bool danger = to_wall_m < safe_distance_m;
-
-    NearestBody nearest_robot(body);
-    for (std::size_t other = 0; other < states_.size(); ++other)
-      if (other != robot) nearest_robot.add(outline_of(world().robots()[other], sample.robots[other]));
-    NearestBody nearest_person(body);
-    for (const Person& person : sample.people) nearest_person.add(outline_of(person));
 
     const auto add = [&](double distance_m, ClearanceTo& to, TimeCount& share) {
       if (std::isnan(distance_m)) return;
@@ -105,10 +106,13 @@ class Clearance final : public ActiveTimeMetric<ClearanceOfRobot> {
       share.add(distance_m < safe_distance_m, sample.dt_ns);
       danger = danger || distance_m < safe_distance_m;
     };
-    add(nearest_robot.distance_m(), own.robots, own.danger_of_robots);
-    add(nearest_person.distance_m(), own.people, own.danger_of_people);
+    const double travelled_m = robots_.travelled_m();
+    add(own.robot.distance_m(body, travelled_m, robots_, robot), own.robots, own.danger_of_robots);
+    add(own.person.distance_m(body, travelled_m, people_), own.people, own.danger_of_people);
     own.danger.add(danger, sample.dt_ns);
   }
+
+  OutlinesInTime robots_, people_;
 };
 
 }  // namespace dmrp::metrics

@@ -42,12 +42,13 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
     for (std::size_t robot = 0; robot < states_.size(); ++robot)
       bodies_.push_back(moving(world().robots()[robot], sample.robots[robot]));
     for (const Person& person : sample.people) bodies_.push_back(moving(person));
-    grid_.build(bodies_.size(), near_m, [this](std::size_t body) { return bodies_[body].disc.center; });
     fastest_ = widest_m_ = 0.0;
     for (const Moving& body : bodies_) {
       fastest_ = std::max(fastest_, toolkit::norm(body.velocity));
       widest_m_ = std::max(widest_m_, body.disc.radius_m);
     }
+    grid_.build(bodies_.size(), std::max(near_m, cell_of_one_m()),
+                [this](std::size_t body) { return bodies_[body].disc.center; });
     ActiveTimeMetric::observe(sample);
   }
 
@@ -67,20 +68,32 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
     times.low.add(soonest_s < threshold_s, sample.dt_ns);
   }
 
+  // The side of cells that would hold one body each, were they evenly spread.
+  double cell_of_one_m() const {
+    if (bodies_.empty()) return 0.0;
+    Vec2 lower = bodies_.front().disc.center;
+    Vec2 upper = lower;
+    for (const Moving& body : bodies_) {
+      lower = {std::min(lower.x, body.disc.center.x), std::min(lower.y, body.disc.center.y)};
+      upper = {std::max(upper.x, body.disc.center.x), std::max(upper.y, body.disc.center.y)};
+    }
+    return std::max(upper.x - lower.x, upper.y - lower.y) / std::sqrt(static_cast<double>(bodies_.size()));
+  }
+
   // The least time to a collision of the robot if that is at most latest_s; else that, a greater one or NaN.
   double soonest_until(std::size_t robot, double latest_s) const {
     const Moving& own = bodies_[robot];
-    // not 0, so that the reach grows where nobody moves
-    const double closing = std::max(0.1, toolkit::norm(own.velocity) + fastest_);
     for (double horizon_s = std::max<double>(threshold_s, 1.0);; horizon_s *= 2.0) {
       const double until_s = std::min(horizon_s, latest_s);
-      // times are rounded by much less than a thousandth
-      const double reach_m = 1.001 * (own.disc.radius_m + widest_m_ + closing * until_s);
+      // Whom it meets until then is that near to where it will be: they close in by their speed, and before, it has a
+      // way to go. Times are rounded by much less than a thousandth.
+      const double reach_m = 1.001 * (own.disc.radius_m + widest_m_ + fastest_ * until_s);
       double soonest_s = undefined;
-      const std::size_t visited = grid_.visit(own.disc.center, reach_m, [&](std::size_t other) {
-        if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(own, bodies_[other]));
-      });
-      if (soonest_s <= until_s || until_s == latest_s || visited == bodies_.size()) return soonest_s;
+      const std::size_t visited =
+          grid_.visit(own.disc.center + until_s * own.velocity, reach_m, [&](std::size_t other) {
+            if (other != robot) soonest_s = std::fmin(soonest_s, time_to_contact(own, bodies_[other]));
+          });
+      if (soonest_s <= until_s || until_s == latest_s || visited == bodies_.size() || fastest_ == 0.0) return soonest_s;
     }
   }
 

@@ -4,7 +4,9 @@
 
 #include <dmrp/toolkit/individual_path.hpp>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "metrics/measure/bases.hpp"
@@ -56,12 +58,16 @@ class RootConflicts final : public FirstPlanMetric {
     std::int64_t gone_ns;
   };
 
-  using Stays = std::vector<Stay>;
+  struct Stays {
+    std::vector<Stay> in_time;
+    std::vector<std::uint32_t> by_cell;  // indices of in_time, sorted by cell
+  };
 
   // Nothing if the path does not lead from cell to neighbouring cell.
   static std::optional<Stays> stays_of(const GridView& grid, const Path& path) {
     constexpr std::int64_t for_ever = std::numeric_limits<std::int64_t>::max();
-    Stays stays;
+    Stays result;
+    std::vector<Stay>& stays = result.in_time;
     for (const Waypoint& waypoint : path) {
       const std::uint32_t cell = grid.index_of(toolkit::position(waypoint));
       if (cell == toolkit::no_cell) return std::nullopt;
@@ -77,27 +83,37 @@ class RootConflicts final : public FirstPlanMetric {
       }
       stays.push_back({cell, waypoint.t_ns, waypoint.t_ns, for_ever});
     }
-    return stays;
+    result.by_cell.resize(stays.size());
+    std::iota(result.by_cell.begin(), result.by_cell.end(), 0u);
+    std::sort(result.by_cell.begin(), result.by_cell.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return stays[a].cell < stays[b].cell; });
+    return result;
   }
 
   static bool overlap(std::int64_t from_a, std::int64_t to_a, std::int64_t from_b, std::int64_t to_b) {
     return from_a < to_b && from_b < to_a;
   }
 
+  // Whether two stays on one cell, or the moves from the one and to the other, conflict.
+  static bool conflict_at(const std::vector<Stay>& a, std::size_t i, const std::vector<Stay>& b, std::size_t j) {
+    if (overlap(a[i].arrives_ns, a[i].gone_ns, b[j].arrives_ns, b[j].gone_ns)) return true;
+    const bool exchange = i + 1 < a.size() && j > 0 && a[i + 1].cell == b[j - 1].cell;
+    return exchange && overlap(a[i].leaves_ns, a[i].gone_ns, b[j - 1].leaves_ns, b[j - 1].gone_ns);
+  }
+
   static bool conflict(const Stays& a, const Stays& b) {
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = 0; j < b.size(); ++j) {
-        if (a[i].cell == b[j].cell && overlap(a[i].arrives_ns, a[i].gone_ns, b[j].arrives_ns, b[j].gone_ns))
-          return true;
-        const bool exchange =
-            i + 1 < a.size() && j + 1 < b.size() && a[i].cell == b[j + 1].cell && a[i + 1].cell == b[j].cell;
-        if (exchange && overlap(a[i].leaves_ns, a[i].gone_ns, b[j].leaves_ns, b[j].gone_ns)) return true;
-      }
+    auto from = b.by_cell.begin();
+    for (const std::uint32_t i : a.by_cell) {
+      const std::uint32_t cell = a.in_time[i].cell;
+      while (from != b.by_cell.end() && b.in_time[*from].cell < cell) ++from;
+      for (auto j = from; j != b.by_cell.end() && b.in_time[*j].cell == cell; ++j)
+        if (conflict_at(a.in_time, i, b.in_time, *j)) return true;
+    }
     return false;
   }
 
   // Whether the plan leads over the cell, or from it to the neighbour `to`.
-  static bool passes(const Stays& stays, std::uint32_t cell, std::uint32_t to) {
+  static bool passes(const std::vector<Stay>& stays, std::uint32_t cell, std::uint32_t to) {
     for (std::size_t i = 0; i < stays.size(); ++i)
       if (stays[i].cell == cell && (cell == to || (i + 1 < stays.size() && stays[i + 1].cell == to))) return true;
     return false;
@@ -110,20 +126,59 @@ class RootConflicts final : public FirstPlanMetric {
     double left = 0.0;
   };
 
-  // A pair whose own shortest paths conflict, by the first of their conflicts.
-  static void count_pair(const CellPath& own_a, const CellPath& own_b, const Stays& a, const Stays& b, Counts& counts) {
-    std::optional<std::pair<std::uint32_t, std::uint32_t>> first;
-    toolkit::for_each_conflict(own_a, own_b, [&](std::uint32_t cell_a, std::uint32_t cell_b) {
-      if (!first) first = {cell_a, cell_b};
-    });
-    if (!first) return;
-    counts.root += 1.0;
-    if (conflict(a, b))
-      counts.left += 1.0;
-    else if (passes(a, first->first, first->second) && passes(b, first->second, first->first))
-      counts.waited += 1.0;
-    else
-      counts.detoured += 1.0;
+  // Which robots are on a cell at a step of their own shortest paths.
+  class Occupants {
+   public:
+    Occupants(std::uint32_t cells, std::size_t robots) : first_(cells, nobody), next_(robots, nobody) {}
+
+    void place(const std::vector<CellPath>& paths, std::size_t step) {
+      for (const std::uint32_t cell : used_) first_[cell] = nobody;
+      used_.clear();
+      for (std::size_t robot = 0; robot < paths.size(); ++robot) {
+        const std::uint32_t cell = toolkit::at_step(paths[robot], step);
+        next_[robot] = first_[cell];
+        first_[cell] = static_cast<std::uint32_t>(robot);
+        used_.push_back(cell);
+      }
+    }
+
+    template <class Visit>
+    void visit(std::uint32_t cell, Visit&& visit) const {
+      for (std::uint32_t robot = first_[cell]; robot != nobody; robot = next_[robot]) visit(robot);
+    }
+
+   private:
+    static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+    std::vector<std::uint32_t> first_;  // by cell
+    std::vector<std::uint32_t> next_;   // by robot, on the same cell
+    std::vector<std::uint32_t> used_;   // cells
+  };
+
+  // Calls visit(a, b, a's cell, b's cell), a < b, for each pair at its first conflict.
+  template <class Visit>
+  static void for_each_pair(std::uint32_t cells, const std::vector<CellPath>& paths, Visit&& visit) {
+    std::size_t longest = 0;
+    for (const CellPath& path : paths) longest = std::max(longest, path.size());
+    Occupants occupants(cells, paths.size());
+    std::unordered_set<std::uint64_t> seen;
+    for (std::size_t step = 0; step < longest; ++step) {
+      occupants.place(paths, step);
+      for (std::uint32_t b = 0; b < paths.size(); ++b) {
+        const std::uint32_t here = toolkit::at_step(paths[b], step);
+        const std::uint32_t next = toolkit::at_step(paths[b], step + 1);
+        const auto add = [&](std::uint32_t a, std::uint32_t cell) {
+          if (seen.insert(std::uint64_t{a} << 32 | b).second) visit(a, b, cell, here);
+        };
+        occupants.visit(here, [&](std::uint32_t a) {
+          if (a < b) add(a, here);
+        });
+        if (next == here) continue;
+        occupants.visit(next, [&](std::uint32_t a) {
+          if (a < b && toolkit::at_step(paths[a], step + 1) == here) add(a, next);
+        });
+      }
+    }
   }
 
   // Nothing for plans that are not from cell to cell.
@@ -133,14 +188,23 @@ class RootConflicts final : public FirstPlanMetric {
     const std::vector<bool> nothing_closed(grid.size());
     for (std::size_t robot = 0; robot < plan.size(); ++robot) {
       const auto stays = stays_of(grid, plan.path(robot));
-      if (!stays || stays->empty()) return std::nullopt;
+      if (!stays || stays->in_time.empty()) return std::nullopt;
       planned.push_back(*stays);
-      own.push_back(toolkit::individual_path(grid, stays->front().cell,
-                                             toolkit::straight_steps_to(grid, stays->back().cell, nothing_closed)));
+      const std::uint32_t start = stays->in_time.front().cell;
+      const std::uint32_t goal = stays->in_time.back().cell;
+      own.push_back(
+          toolkit::individual_path(grid, start, toolkit::straight_steps_to(grid, goal, nothing_closed, start)));
     }
     Counts counts;
-    for (std::size_t a = 0; a < planned.size(); ++a)
-      for (std::size_t b = a + 1; b < planned.size(); ++b) count_pair(own[a], own[b], planned[a], planned[b], counts);
+    for_each_pair(grid.size(), own, [&](std::uint32_t a, std::uint32_t b, std::uint32_t cell_a, std::uint32_t cell_b) {
+      counts.root += 1.0;
+      if (conflict(planned[a], planned[b]))
+        counts.left += 1.0;
+      else if (passes(planned[a].in_time, cell_a, cell_b) && passes(planned[b].in_time, cell_b, cell_a))
+        counts.waited += 1.0;
+      else
+        counts.detoured += 1.0;
+    });
     return counts;
   }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// STO, IBTR and LDF of random trials, compared with the plainest implementations of their definitions.
+// STO, IBTR, LDF and clearance of random trials, compared with the plainest implementations of their definitions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <dmrp/toolkit/random.hpp>
@@ -168,6 +168,48 @@ TEST_CASE("STO, IBTR and LDF agree with their definitions on random trials") {
   CHECK(with_overlap > 50);
   CHECK(with_blocking > 50);
   CHECK(with_several_pairs > 50);
+}
+
+// 30 robots that wander, and now and then jump, in a square of 20 m.
+std::vector<std::vector<dmrp_robot_sample>> wander(Stream& stream) {
+  const std::size_t robots = 30;
+  std::vector<std::vector<dmrp_robot_sample>> samples(1);
+  for (std::size_t robot = 0; robot < robots; ++robot)
+    samples[0].push_back(at(stream.uniform(0.0, 20.0), stream.uniform(0.0, 20.0)));
+  for (int i = 1; i < 60; ++i) {
+    samples.push_back(samples.back());
+    for (dmrp_robot_sample& robot : samples.back()) {
+      const double reach_m = stream.chance(0.002) ? 10.0 : 0.1;
+      robot.pose.x += stream.uniform(-reach_m, reach_m);
+      robot.pose.y += stream.uniform(-reach_m, reach_m);
+    }
+  }
+  return samples;
+}
+
+TEST_CASE("clearance to robots is that of the nearest of all") {
+  for (int i = 0; i < 20; ++i) {
+    INFO("random trial " << i);
+    Stream stream(1, "metrics.clearance", i);
+    const auto samples = wander(stream);
+    SyntheticTrial trial(samples[0].size());
+    for (std::size_t k = 0; k < samples.size(); ++k) trial.sample(0.1 * static_cast<double>(k), samples[k]);
+    trial.end(0.1 * static_cast<double>(samples.size() - 1));
+    const Measurement clearance = measure("dmrp.metric.clearance", trial);
+    for (std::size_t robot = 0; robot < samples[0].size(); ++robot) {
+      double sum = 0.0;
+      for (std::size_t k = 1; k < samples.size(); ++k) {
+        double nearest = 1e9;
+        for (std::size_t other = 0; other < samples[k].size(); ++other) {
+          const dmrp_pose &a = samples[k][robot].pose, &b = samples[k][other].pose;
+          if (other != robot) nearest = std::min(nearest, distance({a.x, a.y}, {b.x, b.y}) - 0.5);
+        }
+        sum += nearest;
+      }
+      CHECK(clearance.robot("clearance_robot_mean", robot) ==
+            Approx(sum / static_cast<double>(samples.size() - 1)).margin(1e-12));
+    }
+  }
 }
 
 }  // namespace brute_force_test

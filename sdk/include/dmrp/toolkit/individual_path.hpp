@@ -20,13 +20,14 @@ DMRP_LOCAL inline constexpr std::uint32_t no_way = std::numeric_limits<std::uint
 DMRP_LOCAL inline constexpr int straight_stride = 2;  // every second of the eight directions is one
 
 // The number of straight moves from each cell to the goal, over cells that are not closed; `no_way` without a way.
+// With a `start`, of the cells nearer than it and of itself; others may have `no_way`, too.
 inline std::vector<std::uint32_t> straight_steps_to(const GridView& grid, std::uint32_t goal,
-                                                    const std::vector<bool>& closed) {
+                                                    const std::vector<bool>& closed, std::uint32_t start = no_cell) {
   assert(goal < grid.size() && closed.size() == grid.size());
   std::vector<std::uint32_t> steps(grid.size(), no_way);
   std::vector<std::uint32_t> queue = {goal};
   steps[goal] = 0;
-  for (std::size_t next = 0; next < queue.size(); ++next)
+  for (std::size_t next = 0; next < queue.size() && queue[next] != start; ++next)
     for (int direction = 0; direction < direction_count; direction += straight_stride) {
       if (!grid.edge(queue[next], direction)) continue;
       const std::uint32_t other = grid.neighbour(queue[next], direction);

@@ -39,24 +39,30 @@ class NavigationField {
   // The field towards the nearest of the targets; a point is a rectangle without extent. A target is reached through
   // the free cells that it touches: a target that touches none has no effect.
   void compute(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost = {}) {
-    grid_ = grid;
-    for (std::size_t i = 0; i < strides_.size(); ++i)
-      strides_[i] =
-          static_cast<std::uint32_t>(direction_dx[i]) + static_cast<std::uint32_t>(direction_dy[i]) * grid.width();
-    cost_ = cost;
-    targets_ = targets;
-    values_.assign(grid.size(), unreachable);
-    directions_.assign(grid.size(), {0.0, 0.0});
-    settled_.assign(grid.size(), 0);
-    queue_.clear();
-    for (const Rectangle& target : targets_) seed(target);
-    march();
-    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell)
-      if (directions_[cell] == dmrp_vec2{0.0, 0.0}) directions_[cell] = descent(cell);
+    begin(grid, targets, cost);
+    march({});
+    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell) finish(cell);
   }
 
   void compute(const GridView& grid, const Rectangle& target, NavigationCost cost = {}) {
     compute(grid, std::vector<Rectangle>{target}, cost);
+  }
+
+  // The same field as far as the ways from the points `from` need it: what it says of a point is true where it knows
+  // the point.
+  void compute_from(const GridView& grid, const std::vector<dmrp_vec2>& from, const Rectangle& target) {
+    begin(grid, {target}, {});
+    std::vector<std::uint32_t> starts;
+    for (const dmrp_vec2 point : from) starts.push_back(grid.index_of(point));
+    march(starts);
+    for (const std::uint32_t cell : order_) finish(cell);
+  }
+
+  // Whether the field was computed as far as the point's cell and those around it.
+  bool knows(dmrp_vec2 point) const {
+    if (known_ == unreachable) return true;
+    const std::uint32_t cell = grid_.index_of(point);
+    return cell != no_cell && values_[cell] + around() <= known_;
   }
 
   DMRP_LOCAL static constexpr double unreachable = std::numeric_limits<double>::infinity();
@@ -152,6 +158,39 @@ class NavigationField {
     std::array<double, 4> weights;
   };
 
+  void begin(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost) {
+    const bool few = known_ < unreachable && values_.size() == grid.size();
+    grid_ = grid;
+    for (std::size_t i = 0; i < strides_.size(); ++i)
+      strides_[i] =
+          static_cast<std::uint32_t>(direction_dx[i]) + static_cast<std::uint32_t>(direction_dy[i]) * grid.width();
+    cost_ = cost;
+    targets_ = targets;
+    clear(few);
+    for (const Rectangle& target : targets_) seed(target);
+  }
+
+  // Forgets the last field: the cells that it came to, if these are `few`, else all.
+  void clear(bool few) {
+    if (few) {
+      for (const Entry& entry : queue_) order_.push_back(entry.second);
+      for (const std::uint32_t cell : order_) {
+        values_[cell] = unreachable;
+        directions_[cell] = {0.0, 0.0};
+        settled_[cell] = 0;
+      }
+    } else {
+      values_.assign(grid_.size(), unreachable);
+      directions_.assign(grid_.size(), {0.0, 0.0});
+      settled_.assign(grid_.size(), 0);
+    }
+    order_.clear();
+    queue_.clear();
+  }
+
+  // What the values of cells around a cell exceed its own by at most, and more, where a metre costs 1.
+  double around() const { return 6.0 * grid_.resolution_m(); }
+
   double metre_cost(std::uint32_t cell) const {
     const double clearance = static_cast<double>(grid_.clearance(cell));
     if (!(clearance < cost_.comfort_m)) return 1.0;
@@ -225,19 +264,32 @@ class NavigationField {
     std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
   }
 
-  void march() {
-    while (!queue_.empty()) {
+  // Settles all cells; or, with starts, no more than the ways from them need: if all of these can be settled.
+  void march(const std::vector<std::uint32_t>& starts) {
+    known_ = unreachable;
+    std::size_t settled_starts = 0;
+    while (!queue_.empty() && !(queue_.front().first > known_)) {
       std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
       const std::uint32_t cell = queue_.back().second;
       queue_.pop_back();
       if (settled_[cell]) continue;
       settled_[cell] = 1;
+      if (!starts.empty()) {
+        order_.push_back(cell);
+        settled_starts += static_cast<std::size_t>(std::count(starts.begin(), starts.end(), cell));
+        if (settled_starts == starts.size() && known_ == unreachable) known_ = values_[cell] + 2.0 * around();
+      }
       for (int direction = 0; direction < direction_count; direction += 2) {
         if (!grid_.edge(cell, direction)) continue;
         const std::uint32_t next = across(cell, direction);
         if (!settled_[next]) offer(next, upwind_value(next), {0.0, 0.0});
       }
     }
+    if (queue_.empty()) known_ = unreachable;
+  }
+
+  void finish(std::uint32_t cell) {
+    if (directions_[cell] == dmrp_vec2{0.0, 0.0}) directions_[cell] = descent(cell);
   }
 
   // The cell on the other side of an edge: always in the grid, so there is no bounds check.
@@ -325,6 +377,8 @@ class NavigationField {
   std::vector<dmrp_vec2> directions_;
   std::vector<std::uint8_t> settled_;
   std::vector<Entry> queue_;
+  std::vector<std::uint32_t> order_;  // cells as they were settled, if not all were to be
+  double known_ = unreachable;        // up to this value, all cells are settled
 };
 
 }  // namespace dmrp::toolkit

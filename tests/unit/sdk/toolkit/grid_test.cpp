@@ -293,6 +293,32 @@ TEST_CASE("a navigation field reaches what can be reached, by no longer way than
   }
 }
 
+TEST_CASE("a navigation field from some starts is the whole field where it knows", "[toolkit]") {
+  Stream stream(6, "starts");
+  NavigationField whole, part;
+  int known = 0, unknown = 0;
+  for (int i = 0; i < 40; ++i) {
+    const TestGrid grid(random_rows(stream, 60, 50, 0.25), 0.2);
+    const GridView view = grid.view();
+    const Rectangle target = {{6.0, 5.0}, {6.6, 5.4}};
+    const std::vector<dmrp_vec2> starts = {view.center(static_cast<std::uint32_t>(stream.below(view.size()))),
+                                           {5.1, 4.3}};
+    whole.compute(view, target);
+    part.compute_from(view, starts, target);
+    for (const dmrp_vec2 start : starts) CHECK(part.knows(start));
+    for (int k = 0; k < 300; ++k) {
+      const dmrp_vec2 point = {stream.uniform(0.0, 12.0), stream.uniform(0.0, 10.0)};
+      unknown += !part.knows(point);
+      if (!part.knows(point)) continue;
+      ++known;
+      REQUIRE(part.direction(point) == whole.direction(point));
+      REQUIRE(part.value(point) == whole.value(point));
+    }
+  }
+  CHECK(known > 1000);
+  CHECK(unknown > 1000);
+}
+
 TEST_CASE("following a navigation field takes about the length that it gives", "[toolkit]") {
   Stream stream(4, "walks");
   NavigationField field;
