@@ -34,7 +34,7 @@ class MiniGame final : public ActiveTimeMetric<VelocityChange> {
                "sum over the steps of active time of |v - v of the step before|, v in the world's frame; undefined if "
                "planning failed",
                never_negative)
-        .value("flow_rate", "1/(m s)", higher_is_better, Subjects::system,
+        .value("flow_rate", "1/m/s", higher_is_better, Subjects::system,
                "robots / (gap_width_m times the last arrival); 0 unless all arrive", never_negative);
   }
 
