@@ -64,7 +64,7 @@ FlowRoutes find_flow_routes(const Scenario& scenario, const PlanningGrid& walkin
   WayFinder finder(walking_grid);
   FlowRoutes routes;
   routes.legs.resize(scenario.flows.size());
-  // Where a leg begins is known after the one before: so again, until no flow has a next leg.
+  // A leg begins where the one before ends, so this repeats until no flow has a next leg.
   for (bool any = true; any;) {
     any = false;
     for (std::uint32_t region = 0; region < scenario.regions.size(); ++region) {

@@ -23,7 +23,7 @@ constexpr double inset_cells = 1e-9;
 // integer bits for the largest window.
 constexpr int fraction_bits = 44;
 
-// In cells: the half of a cell's diagonal, and rounding. No line that has a cell passes its middle farther away.
+// No line that has a cell passes its middle farther away, in cells: half of a diagonal, and rounding.
 constexpr double cell_reach = 0.7072;
 
 // Rows of the stamp are a multiple of this length, so that the compiler can vectorise.

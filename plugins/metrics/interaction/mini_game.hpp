@@ -8,7 +8,7 @@
 
 namespace dmrp::metrics {
 
-// Of one robot.
+// Sums up how one robot changes its velocity.
 struct VelocityChange {
   CompensatedSum changes_m_s;
   Vec2 last;  // in the world's frame

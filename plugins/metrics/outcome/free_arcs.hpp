@@ -33,7 +33,7 @@ struct Arc {
     return toolkit::cross(from, direction) >= -rounding && toolkit::cross(direction, to) >= -rounding &&
            toolkit::dot(from + to, direction) > 0.0;
   }
-  // Of a direction that it contains: radians from `from`.
+  // Measures radians from `from` to a direction that it contains.
   double angle_to(Vec2 direction) const {
     return std::clamp(std::atan2(toolkit::cross(from, direction), toolkit::dot(from, direction)), 0.0, width_rad);
   }

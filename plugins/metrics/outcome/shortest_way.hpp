@@ -41,7 +41,7 @@ class ShortestTours {
     return sum_m;
   }
 
-  // At v_max.
+  // Assumes v_max all the way.
   double least_time_s(const Robot& robot) { return length_m(robot) / robot.limits->v_max; }
 
  private:

@@ -56,7 +56,7 @@ class StaticShapes {
   std::vector<Vec2> vertices_;
 };
 
-// Where the centre of a disc may be among these shapes. Those near a place are found in square cells.
+// Knows where the centre of a disc may be among these shapes. Square cells find those near a place.
 class FreeSpace {
  public:
   // The shapes must outlive this object.
@@ -97,7 +97,7 @@ class FreeSpace {
     for (const std::uint32_t index : found) visit(index);
   }
 
-  // At most radius_m: no other walls count.
+  // Gives at most radius_m, since walls farther away do not count.
   double clearance_m(Vec2 point) const {
     double nearest_m = std::min(radius_m_, toolkit::depth(shapes_.border(), point));
     for (const std::uint32_t index : near(point))
@@ -177,7 +177,7 @@ class FreeSpace {
     return cells_[static_cast<std::size_t>(row * columns_ + column)];
   }
 
-  // Where a leg from `low` to `high` has this y, or its nearer end.
+  // Gives the x at which a leg from `low` to `high` has this y, or that of its nearer end.
   static double x_at(Vec2 low, Vec2 high, double y) {
     if (y <= low.y) return low.x;
     if (y >= high.y) return high.x;
