@@ -33,6 +33,13 @@ const void* Recorder::extension(const std::string& id) {
   return source_(id) ? own(id) : nullptr;
 }
 
+void Recorder::read_all(std::uint32_t robot) {
+  if (source_(DMRP_EXT_LIDAR)) scan(robot);
+  if (source_(DMRP_EXT_LOCAL_COSTMAP)) costmap(robot);
+  if (source_(DMRP_EXT_DISTANCE_FIELD)) field(robot);
+  if (source_(DMRP_EXT_OBSTACLE_CLUSTERS)) clusters(robot);
+}
+
 const dmrp_scan* Recorder::scan(std::uint32_t robot) {
   const auto* lidar = static_cast<const dmrp_lidar*>(source_(DMRP_EXT_LIDAR));
   const dmrp_scan* scan = lidar->scan(lidar, robot);

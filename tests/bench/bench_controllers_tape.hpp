@@ -77,6 +77,9 @@ class Recorder final : public Perception {
   // Sets the frame into which all data read from now on is recorded.
   void write_to(Frame& frame) { frame_ = &frame; }
 
+  // Records what the controller has not read, too: another one may want it.
+  void read_all(std::uint32_t robot);
+
   const void* extension(const std::string& id) override;
 
  private:

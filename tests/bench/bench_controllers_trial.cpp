@@ -71,8 +71,9 @@ struct Driver {
 
 class Recording {
  public:
-  Recording(const TrialUnderTest& trial, host::InstancePool& pool)
+  Recording(const TrialUnderTest& trial, host::InstancePool& pool, bool all_sensors)
       : trial_(trial),
+        all_sensors_(all_sensors),
         world_(trial.variant.scenario, trial.variant.types, trial.variant.simulation, trial.variant.geometry,
                trial.variant.routes, trial.seed),
         lidar_(trial.experiment.robot.lidar, trial.variant.geometry),
@@ -155,6 +156,7 @@ class Recording {
       observe(i, frame);
       driver.recorder.write_to(frame);
       frame.status = driver.table.step(driver.controller->self(), &frame.observation, &frame.command);
+      if (all_sensors_) driver.recorder.read_all(i);
       const bool is_given = frame.status == DMRP_OK || frame.status == DMRP_WARNING;
       if (!is_given && frame.status != DMRP_NO_SOLUTION)
         throw std::runtime_error(fmt::format("step() returned {}", frame.status));
@@ -208,6 +210,7 @@ class Recording {
   }
 
   const TrialUnderTest& trial_;
+  const bool all_sensors_;
   core::World world_;
   core::Sight sight_{world_};
   core::Lidar lidar_;
@@ -222,20 +225,22 @@ class Recording {
 
 }  // namespace
 
-RecordedTrial record(const TrialUnderTest& trial, host::InstancePool& pool) {
-  return Recording(trial, pool).run();
+RecordedTrial record(const TrialUnderTest& trial, host::InstancePool& pool, bool all_sensors) {
+  return Recording(trial, pool, all_sensors).run();
 }
 
 Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32_t robot, const Tape& tape,
-              bool listens) {
+              bool listens, std::size_t controller) {
   pool.clear();
   Player player(listens);
-  host::Instance& controller = pool.get(trial.experiment.local_controllers[0], static_cast<std::int32_t>(robot));
-  const auto table = controller.table<dmrp_local_controller>();
-  controller.offer([&player](const char* id) { return player.extension(id); });
-  controller.start(trial.variant.view.world(), instance_seed(trial.seed, "local_controller", robot), budget_ns);
+  host::Instance& instance = pool.get(trial.experiment.local_controllers[controller], static_cast<std::int32_t>(robot));
+  const auto table = instance.table<dmrp_local_controller>();
+  instance.offer([&player](const char* id) { return player.extension(id); });
+  const std::uint64_t seed = trial.seed + controller;  // a controller that stands twice draws twice
+  instance.start(trial.variant.view.world(), instance_seed(seed, "local_controller", robot), budget_ns);
 
   Replay replay;
+  replay.commands.reserve(tape.size());
   replay.call_ms.reserve(tape.size());
   replay.allocations.reserve(tape.size());
   for (const Frame& frame : tape) {
@@ -243,7 +248,7 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
     if (!frame.path.empty()) {
       const dmrp_path path = path_of(frame.path);
       const dmrp_path_update update = {sizeof(update), robot, 1, &path, 0, 0};
-      table.set_path(controller.self(), &update);
+      table.set_path(instance.self(), &update);
     }
     dmrp_observation observation = frame.observation;
     observation.goal = &frame.goal;
@@ -252,10 +257,12 @@ Replay replay(const TrialUnderTest& trial, host::InstancePool& pool, std::uint32
     command.struct_size = sizeof(command);
     const std::uint64_t blocks = allocations();
     const double start_ms = thread_ms();
-    const std::int32_t status = table.step(controller.self(), &observation, &command);
+    const std::int32_t status = table.step(instance.self(), &observation, &command);
     replay.call_ms.push_back(thread_ms() - start_ms);
     replay.allocations.push_back(allocations() - blocks);
-    if (status != frame.status || std::memcmp(&command, &frame.command, sizeof(command)) != 0)
+    const bool is_given = status == DMRP_OK || status == DMRP_WARNING;
+    replay.commands.push_back(is_given ? std::optional(command) : std::nullopt);
+    if (controller == 0 && (status != frame.status || std::memcmp(&command, &frame.command, sizeof(command)) != 0))
       throw std::runtime_error(fmt::format("robot {} answered otherwise than before at {} s", robot,
                                            1e-9 * static_cast<double>(frame.observation.t_ns)));
     if (const double iterations = player.take_iterations(); iterations >= 0.0) replay.iterations.push_back(iterations);
