@@ -29,14 +29,15 @@ class PeopleCheck {
  public:
   PeopleCheck(const ScenarioFile& file, const core::RobotTypes& types,
               const std::shared_ptr<const core::StaticGeometry>& geometry, const core::PlanningGrids& planning,
-              const RandomRobots& drawn, Experiment& experiment)
+              const RandomRobots& drawn, Experiment& experiment, std::shared_ptr<const core::FlowRoutes>& routes)
       : file_(file),
         types_(types),
         scenario_(file.scenario),
         geometry_(geometry),
         planning_(planning),
         drawn_(drawn),
-        experiment_(experiment) {}
+        experiment_(experiment),
+        routes_(routes) {}
 
   void run() {
     Mistakes mistakes;
@@ -56,15 +57,15 @@ class PeopleCheck {
     experiment_.warnings.push_back(file_.document->place(at) + ": " + text);
   }
 
-  void check_flows() const {
+  void check_flows() {
     const core::PlanningGrid walking = core::build_walking_grid(*geometry_, scenario_.people.radius_m);
     Mistakes mistakes;
     for (std::size_t i = 0; i < scenario_.flows.size(); ++i)
       if (scenario_.flows[i].people > 0) mistakes.attempt([&] { check_flow(walking, i); });
     mistakes.end();
-    const core::FlowRoutes routes = core::find_flow_routes(scenario_, walking);
-    mistakes.attempt([&] { check_room(routes); });
-    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) mistakes.attempt([&] { check_groups(routes, i); });
+    if (!routes_) routes_ = std::make_shared<core::FlowRoutes>(core::find_flow_routes(scenario_, walking));
+    mistakes.attempt([&] { check_room(*routes_); });
+    for (std::size_t i = 0; i < scenario_.flows.size(); ++i) mistakes.attempt([&] { check_groups(*routes_, i); });
     mistakes.end();
   }
 
@@ -254,14 +255,15 @@ class PeopleCheck {
   const core::PlanningGrids& planning_;
   const RandomRobots& drawn_;
   Experiment& experiment_;
+  std::shared_ptr<const core::FlowRoutes>& routes_;
 };
 
 }  // namespace
 
 void check_people(const ScenarioFile& file, const core::RobotTypes& types,
                   const std::shared_ptr<const core::StaticGeometry>& geometry, const core::PlanningGrids& planning,
-                  const RandomRobots& drawn, Experiment& experiment) {
-  PeopleCheck(file, types, geometry, planning, drawn, experiment).run();
+                  const RandomRobots& drawn, Experiment& experiment, std::shared_ptr<const core::FlowRoutes>& routes) {
+  PeopleCheck(file, types, geometry, planning, drawn, experiment, routes).run();
 }
 
 }  // namespace dmrp::host

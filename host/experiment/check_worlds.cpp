@@ -74,14 +74,14 @@ class WorldCheck {
   const core::PlanningGrids& planning_grids() const { return planning_; }
   const core::StaticGeometry& geometry() const { return *geometry_; }
 
-  void run() {
+  void run(std::shared_ptr<const core::FlowRoutes>& routes) {
     Mistakes mistakes;
     std::vector<std::size_t> placed;  // robots without a mistake of their own
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
       if (mistakes.attempt([&] { check_size_and_task(i); })) placed.push_back(i);
     for (std::size_t a = 0; a < placed.size(); ++a)
       for (std::size_t b = a + 1; b < placed.size(); ++b) mistakes.attempt([&] { check_pair(placed[a], placed[b]); });
-    mistakes.attempt([&] { check_people(file_, types_, geometry_, planning_, drawn_, experiment_); });
+    mistakes.attempt([&] { check_people(file_, types_, geometry_, planning_, drawn_, experiment_, routes); });
     mistakes.end();
     check_time_limit();
     if (experiment_.simulation.planning_body == core::PlanningBody::point) return check_margin_of_points();
@@ -434,15 +434,18 @@ core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& sc
   return {drawn.most, drawn.types, scenario.inside, drawn.wishes};
 }
 
-void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
-                 const RandomRobots& drawn, const TomlTable* root) {
+std::shared_ptr<const core::FlowRoutes> check_world(const ScenarioFile& file, const core::RobotTypes& types,
+                                                    Experiment& experiment, const RandomRobots& drawn,
+                                                    const TomlTable* root,
+                                                    std::shared_ptr<const core::FlowRoutes> routes) {
   check_size(file, experiment.simulation.grid_resolution_m, "the planning grid");
   check_size(file, core::walking_resolution_m, "the grid for people");
   WorldCheck check(file, types, experiment, drawn, root);
-  check.run();
+  check.run(routes);
   if (drawn.most > 0) check_points_inside(file, check, experiment);
   if (drawn.most > 0) check_inside(file, check.planning_grids().standard(), experiment);
   check_drawn_tasks(file, check.planning_grids(), experiment, drawn);
+  return routes;
 }
 
 }  // namespace dmrp::host

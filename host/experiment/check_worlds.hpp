@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/people/flow_routes.hpp"
 #include "core/tasks/task_generator.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/scenario/read_scenario.hpp"
@@ -29,7 +31,10 @@ core::TaskRequest request_of(const RandomRobots& drawn, const core::Scenario& sc
 // Checks starts, goals and flows against the walls and the robots of these types, and that every repetition has room for
 // the random tasks. A mistake is an InputError at its place in the file, a doubt a warning in the experiment. `root`: of
 // the experiment file, if there is one: a footprint that it makes too large for the world is a mistake of its own.
-void check_world(const ScenarioFile& file, const core::RobotTypes& types, Experiment& experiment,
-                 const RandomRobots& drawn = {}, const TomlTable* root = nullptr);
+// Returns the routes of the flows if people walk: `routes`, if these are given.
+std::shared_ptr<const core::FlowRoutes> check_world(const ScenarioFile& file, const core::RobotTypes& types,
+                                                    Experiment& experiment, const RandomRobots& drawn = {},
+                                                    const TomlTable* root = nullptr,
+                                                    std::shared_ptr<const core::FlowRoutes> routes = nullptr);
 
 }  // namespace dmrp::host

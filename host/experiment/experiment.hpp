@@ -123,6 +123,10 @@ using PluginSource = std::function<Probe(const std::filesystem::path& file, cons
 Experiment load_experiment(const std::filesystem::path& file, std::uint32_t trials, const PluginSource& source,
                            const PluginSource& tried_by = {});
 
+// Reads an experiment that somebody else has loaded, and does not check its worlds again: that may draw the tasks of all
+// repetitions. loaded_digest() tells whether both have read the same.
+Experiment load_checked_experiment(const std::filesystem::path& file, std::uint32_t trials, const PluginSource& source);
+
 // How effective_toml() writes the path of a library, of a scenario.toml or of a file that a parameter names.
 using FileName = std::function<std::string(const std::filesystem::path&)>;
 std::string absolute_name(const std::filesystem::path& file);

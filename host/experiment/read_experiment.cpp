@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -358,13 +359,15 @@ void choose_cells(const TomlTable& root, std::vector<ScenarioUse>& uses, Experim
 
 // Checks the scenarios with the experiment's settings, and with each combination of swept ones: then each variant
 // becomes one for each combination. `has_scenarios`: all could be read.
-void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool has_scenarios, Experiment& experiment) {
+void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool has_scenarios, bool worlds_are_checked,
+                    Experiment& experiment) {
   choose_cells(root, uses, experiment);
   const core::SimulationSettings simulation = experiment.simulation;
   const core::RobotSettings robot = experiment.robot;
   const std::vector<SettingsPoint> points = read_settings_sweep(root, experiment);
   const std::size_t variants = experiment.scenarios.size();
   std::vector<ScenarioVariant> all(variants * points.size());
+  std::map<std::size_t, std::shared_ptr<const core::FlowRoutes>> routes;  // by use
   Mistakes mistakes;
   for (std::size_t p = 0; p < points.size(); ++p) {
     experiment.simulation = points[p].simulation;
@@ -376,13 +379,16 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
     });
     if (!has_types) continue;
     if (has_scenarios) mistakes.attempt([&] { check_drives(root, experiment); });
-    for (const ScenarioUse& use : uses)
-      mistakes.attempt([&] { check_world(use.file, use.robot_types, experiment, use.random, &root); });
+    for (std::size_t u = 0; u < uses.size() && !worlds_are_checked; ++u)
+      mistakes.attempt([&] {
+        routes[u] = check_world(uses[u].file, uses[u].robot_types, experiment, uses[u].random, &root, routes[u]);
+      });
     if (std::any_of(uses.begin(), uses.end(), [](const ScenarioUse& use) { return use.random.most > 0; }))
       experiment.cut_off.push_back(
           [worlds = worlds_of(uses), settings = experiment.simulation] { return find_cut_off(worlds, settings); });
     for (std::size_t i = 0; i < variants; ++i) {
       ScenarioVariant& variant = all[i * points.size() + p] = experiment.scenarios[i];
+      variant.routes = routes[variant.entry];
       if (!experiment.sweeps.empty()) variant.simulation = points[p].simulation;
       variant.swept.insert(variant.swept.end(), points[p].swept.begin(), points[p].swept.end());
     }
@@ -395,19 +401,8 @@ void apply_settings(const TomlTable& root, std::vector<ScenarioUse>& uses, bool 
   keep_first_of_equals(experiment.warnings);
 }
 
-}  // namespace
-
-std::vector<TomlKeys> experiment_keys() {
-  std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys()}};
-  Experiment unused;
-  for (const auto& [kind, uses] : lists_by_kind(unused))
-    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
-  for (TomlKeys& table : settings_keys()) tables.push_back(std::move(table));
-  return tables;
-}
-
-Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source,
-                           const PluginSource& tried_by) {
+Experiment load(const fs::path& file, std::uint32_t trials, const PluginSource& source, const PluginSource& tried_by,
+                bool worlds_are_checked) {
   if (std::error_code ignored; !fs::is_regular_file(file, ignored))
     throw InputError(file.string() + ": there is no such experiment file");
   Experiment experiment;
@@ -437,8 +432,9 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
 
   // Checks of what belongs together, as far as it has been read.
   mistakes.attempt([&] { check_processes(root, experiment); });
-  const bool has_worlds =
-      has_settings && mistakes.attempt([&] { apply_settings(root, scenario_uses, has_scenarios, experiment); });
+  const bool has_worlds = has_settings && mistakes.attempt([&] {
+    apply_settings(root, scenario_uses, has_scenarios, worlds_are_checked, experiment);
+  });
   if (has_worlds) mistakes.attempt([&] { check_number_of_trials(root, experiment); });
   if (has_worlds) choose_traces(root, experiment);
   if (has_worlds) mistakes.attempt([&] { check_windows(root, experiment); });
@@ -449,6 +445,26 @@ Experiment load_experiment(const fs::path& file, std::uint32_t trials, const Plu
   mistakes.end();
   show_parameters(experiment);
   return experiment;
+}
+
+}  // namespace
+
+std::vector<TomlKeys> experiment_keys() {
+  std::vector<TomlKeys> tables = {{"[experiment]", header_keys}, {"[[scenario]]", scenario_use_keys()}};
+  Experiment unused;
+  for (const auto& [kind, uses] : lists_by_kind(unused))
+    tables.push_back({fmt::format("[[{}]]", kind_name(kind)), plugin_use_keys(kind)});
+  for (TomlKeys& table : settings_keys()) tables.push_back(std::move(table));
+  return tables;
+}
+
+Experiment load_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source,
+                           const PluginSource& tried_by) {
+  return load(file, trials, source, tried_by, false);
+}
+
+Experiment load_checked_experiment(const fs::path& file, std::uint32_t trials, const PluginSource& source) {
+  return load(file, trials, source, {}, true);
 }
 
 }  // namespace dmrp::host

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/people/flow_routes.hpp"
 #include "core/scene/random_tasks.hpp"
 #include "core/scene/robot_types.hpp"
 #include "core/scene/scenario.hpp"
@@ -69,6 +71,7 @@ struct ScenarioVariant {
   PeopleChange people{};              // applied
   std::optional<MapCensus> census{};  // if it has a [map]
   std::vector<SweptValue> swept{};
+  std::shared_ptr<const core::FlowRoutes> routes{};      // if people walk, and its world has been checked
   std::optional<core::SimulationSettings> simulation{};  // if [simulation] has a sweep: in place of the experiment's
 };
 

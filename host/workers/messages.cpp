@@ -82,4 +82,31 @@ void send_in_pieces(const MetricResult& result, const std::function<void(const M
   }
 }
 
+nlohmann::json json_of(const core::FlowRoutes& routes) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const std::vector<core::Route>& legs : routes.legs) {
+    nlohmann::json flow = nlohmann::json::array();
+    for (const core::Route& leg : legs) {
+      std::vector<double> coordinates;
+      for (const dmrp_vec2& point : leg) coordinates.insert(coordinates.end(), {point.x, point.y});
+      flow.push_back(std::move(coordinates));
+    }
+    json.push_back(std::move(flow));
+  }
+  return json;
+}
+
+core::FlowRoutes routes_in(const nlohmann::json& json) {
+  core::FlowRoutes routes;
+  for (const nlohmann::json& flow : json) {
+    std::vector<core::Route>& legs = routes.legs.emplace_back();
+    for (const nlohmann::json& leg : flow) {
+      const auto coordinates = leg.get<std::vector<double>>();
+      core::Route& route = legs.emplace_back();
+      for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) route.push_back({coordinates[i], coordinates[i + 1]});
+    }
+  }
+  return routes;
+}
+
 }  // namespace dmrp::host

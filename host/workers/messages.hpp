@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // messages.hpp: the messages between supervisor and worker.
 //
-//   supervisor -> {"libraries"}                      the descriptors of their plugins, by file
+//   supervisor -> {"libraries", "traces", "routes"}  the descriptors of plugins, by file; which traces are kept; routes of
+//                                                    the people, by [[scenario]]
 //   worker     -> {"type": "ready", "digest"}        of what the worker has read (loaded_digest())
 //   supervisor -> Job                                one trial
 //   worker     -> {"type": "began"}                  the worker begins it
@@ -21,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/people/flow_routes.hpp"
 #include "host/results/result_json.hpp"
 #include "host/results/trial_record.hpp"
 
@@ -53,5 +55,7 @@ void to_json(nlohmann::json& json, const TrialDone& done);
 void from_json(const nlohmann::json& json, TrialDone& done);
 void to_json(nlohmann::json& json, const StoredPlan& plan);  // without paths
 void from_json(const nlohmann::json& json, StoredPlan& plan);
+nlohmann::json json_of(const core::FlowRoutes& routes);  // exact
+core::FlowRoutes routes_in(const nlohmann::json& json);
 
 }  // namespace dmrp::host

@@ -424,8 +424,13 @@ int run_worker(const WorkerTask& task) {
     const ForkServer fork_server;  // before anything is known
     const auto setup = channel.receive();
     if (!setup) return 1;
-    Experiment experiment = load_experiment(task.experiment, task.trials, source_of(*setup));
+    Experiment experiment = load_checked_experiment(task.experiment, task.trials, source_of(*setup));
     experiment.traces = setup->at("traces").get<RecordTraces>();
+    for (const auto& [entry, routes] : setup->at("routes").items()) {
+      const auto found = std::make_shared<const core::FlowRoutes>(routes_in(routes));
+      for (ScenarioVariant& variant : experiment.scenarios)
+        if (std::to_string(variant.entry) == entry) variant.routes = found;
+    }
     Worker(experiment, task, fork_server, channel, sender).serve();
     return 0;
   } catch (const std::bad_alloc&) {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host/workers/messages.hpp"
+
 namespace dmrp::host {
 
 namespace {
@@ -35,7 +37,7 @@ ChildProcess start(const Experiment& experiment, const std::filesystem::path& sc
   return ChildProcess::execute(program);
 }
 
-// The plugins that the experiment uses, since the worker loads no library, and what the run has chosen.
+// The plugins that the experiment uses, since the worker loads no library, what the run has chosen, and what it has found.
 nlohmann::json setup_of(const Experiment& experiment) {
   nlohmann::json libraries = nlohmann::json::object();
   for (const LibraryUse& library : experiment.libraries)
@@ -46,7 +48,11 @@ nlohmann::json setup_of(const Experiment& experiment) {
     for (const PluginUse& use : *uses)
       if (!use.plans.is_given() && added.insert(use.info.id).second)
         libraries[experiment.libraries[use.library].file.string()]["plugins"].push_back(use.info);
-  return {{"libraries", libraries}, {"traces", experiment.traces}};
+  nlohmann::json routes = nlohmann::json::object();
+  for (const ScenarioVariant& variant : experiment.scenarios)
+    if (const std::string entry = std::to_string(variant.entry); variant.routes && !routes.contains(entry))
+      routes[entry] = json_of(*variant.routes);
+  return {{"libraries", libraries}, {"traces", experiment.traces}, {"routes", std::move(routes)}};
 }
 
 }  // namespace

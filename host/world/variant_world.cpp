@@ -69,6 +69,13 @@ void jitter_starts(const ScenarioVariant& variant, const core::StaticGeometry& g
   }
 }
 
+core::FlowRoutes routes_of(const ScenarioVariant& variant, WalkingGrids& grids) {
+  const core::Scenario& scenario = variant.scenario;
+  if (variant.routes) return *variant.routes;
+  if (core::walker_count(scenario) == 0) return {std::vector<std::vector<core::Route>>(scenario.flows.size())};
+  return core::find_flow_routes(scenario, *grids.find(core::walking_resolution_m, scenario.people.radius_m));
+}
+
 std::optional<core::WorldView> view_of_points(const VariantWorld& world, std::int64_t call_budget_ns) {
   if (world.simulation.planning_body == core::PlanningBody::footprint) return std::nullopt;
   core::RobotTypes points;
@@ -95,8 +102,7 @@ VariantWorld::VariantWorld(const Experiment& experiment, const ScenarioVariant& 
       planning_grids(std::make_shared<core::PlanningGrids>(*geometry, types, simulation)),
       planning_grid(planning_grids->common(types_in_use(variant))),
       walking_grids(std::make_shared<WalkingGrids>(geometry)),
-      routes(
-          core::find_flow_routes(scenario, *walking_grids->find(core::walking_resolution_m, scenario.people.radius_m))),
+      routes(routes_of(variant, *walking_grids)),
       view(scenario, types, simulation, *geometry, planning_grid, nanoseconds(experiment.limits.step_time_s)),
       point_view(view_of_points(*this, view.world().call_budget_ns)) {}
 

@@ -50,7 +50,16 @@ void check_round_trip(const Experiment& original) {
   const Experiment again = load_experiment("elsewhere/effective.toml", 0, &fake_probe);
   CHECK(effective_toml(again) == effective);
   CHECK(identity_digest(again) == identity_digest(original));
+  const Experiment unchecked = load_checked_experiment("elsewhere/effective.toml", 0, &fake_probe);
+  CHECK(identity_digest(unchecked) == identity_digest(original));
   CHECK(combinations(again).size() == combinations(original).size());
+}
+
+TEST_CASE("worlds that somebody has checked are not checked again") {
+  const ExperimentFolder folder;
+  write_file("hall/scenario.toml", with(scenario_text, "start = [0.5, 0.5]", "start = [-0.5, 0.5]"));
+  CHECK(message_of(experiment_text) != "no error");
+  CHECK_NOTHROW(load_checked_experiment("experiment.toml", 0, &fake_probe));
 }
 
 TEST_CASE("without robots there is a combination for each model, and neither planner nor controller") {

@@ -110,4 +110,13 @@ TEST_CASE("a result is sent in pieces, none of them large") {
   CHECK(pieces == 1);
 }
 
+TEST_CASE("routes of people arrive to the bit") {
+  dmrp::core::FlowRoutes routes;
+  routes.legs = {{{{0.1, -1.0 / 3.0}, {1e-17, 12345.678901234567}}, {}}, {}};
+  const dmrp::core::FlowRoutes arrived = routes_in(nlohmann::json::parse(json_of(routes).dump()));
+  REQUIRE(arrived.legs.size() == 2);
+  CHECK(arrived.legs[0] == routes.legs[0]);
+  CHECK(arrived.legs[1].empty());
+}
+
 }  // namespace messages_test
