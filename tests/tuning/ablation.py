@@ -36,7 +36,6 @@ NEEDS = {
         "heavy path": {"leave_path_if_stalled": "true", "extend_path": "true"},
     },
     "teb": {
-        "head-on": {"share_evasion": "true", "keep_away_between_poses": "true"},
         "gaps": {"ease_from_start": "true", "ease_to_goal": "true"},
     },
     "mpc": {

@@ -37,7 +37,6 @@ void BandProblem::reserve(std::size_t poses) {
   motions_.reserve(poses);
   aside_.reserve(poses);
   links_.reserve(8 * poses);
-  passings_.reserve(poses);
   via_links_.reserve(poses);
 }
 
@@ -48,9 +47,6 @@ void BandProblem::begin(TimedElasticBand& band, const Scene& scene, const Parame
   parameters_ = &parameters;
   obstacle_factor_ = obstacle_factor;
   linker_.link(band, scene.stops_at_goal, *scene.footprint, *scene.obstacles, parameters, links_);
-  passings_.clear();
-  if (parameters.keep_away_between_poses)
-    link_passings(band, *scene.footprint, *scene.obstacles, parameters, passings_);
   link_via_points(band, *scene.via_points, via_links_);
 }
 
@@ -127,12 +123,10 @@ double BandProblem::evaluate(const NormalEquations& normal, const CostScales& sc
   add_intervals(squares, !scales.whole_duration);
   add_accelerations(squares);
   add_preferred_turn(squares);
-  bound_passings(squares);
   double cost = squares.sum;
   if (scales.whole_duration) cost += band.duration_s();
   squares.sum = 0.0;
   add_obstacles(squares);
-  add_passings(squares);
   cost += scales.obstacles * squares.sum;
   squares.sum = 0.0;
   add_via_points(squares);
@@ -228,47 +222,11 @@ void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) cons
     const Separation apart =
         separation(*scene_->footprint, band_->pose(link.pose), (*scene_->obstacles)[link.obstacle], link.ahead_s);
     const std::array<double, 3> by = {apart.gradient.x, apart.gradient.y, apart.gradient_theta};
-    add_closeness(squares, link, apart.distance_m + link.evades_m, by);
+    add_closeness(squares, link, apart.distance_m, by);
     const double inflation_m = link.is_dynamic ? parameters.dynamic_obstacle_inflation_dist : parameters.inflation_dist;
     if (inflation_m <= parameters.min_obstacle_dist) continue;
-    squares.add(first_of(link.pose), above(apart.distance_m + link.evades_m, inflation_m, 0.0), by,
+    squares.add(first_of(link.pose), above(apart.distance_m, inflation_m, 0.0), by,
                 link.is_dynamic ? parameters.weight_dynamic_obstacle_inflation : parameters.weight_inflation);
-  }
-}
-
-// An interval in which an obstacle passes grows no longer than resizing leaves it. With one long interval, a band would
-// have poses on both sides of the obstacle alone, and pass through it at little cost.
-template <bool with_derivatives>
-void BandProblem::bound_passings(WeightedSquares<with_derivatives>& squares) const {
-  const double longest_s = parameters_->dt_ref + parameters_->dt_hysteresis;
-  for (const PassingLink& link : passings_)
-    squares.add(first_of(link.pose) + 3, within(band_->dt[link.pose], 0.0, longest_s, 0.0), std::array<double, 1>{1.0},
-                forbidding_weight);
-}
-
-// Where a moving obstacle passes between two poses, the band keeps away there, too. Weighs nothing at the poses, which
-// have penalties of their own, so that it sets in smoothly.
-template <bool with_derivatives>
-void BandProblem::add_passings(WeightedSquares<with_derivatives>& squares) const {
-  const Parameters& parameters = *parameters_;
-  for (const PassingLink& link : passings_) {
-    const double turn = toolkit::difference(band_->theta[link.pose], band_->theta[link.pose + 1]);
-    const Vec2 at = toolkit::lerp(band_->position(link.pose), band_->position(link.pose + 1), link.share);
-    const Pose pose = {at.x, at.y, band_->theta[link.pose] + link.share * turn};
-    const Separation apart = separation(*scene_->footprint, pose, (*scene_->obstacles)[link.obstacle], link.ahead_s);
-    const double first = 1.0 - link.share;
-    const double second = link.share;
-    const std::array<double, pair_block> by = {
-        first * apart.gradient.x,  first * apart.gradient.y,  first * apart.gradient_theta, 0.0,
-        second * apart.gradient.x, second * apart.gradient.y, second * apart.gradient_theta};
-    const double part = 4.0 * first * second;
-    squares.add(first_of(link.pose),
-                above(apart.distance_m + link.evades_m, parameters.min_obstacle_dist, parameters.penalty_epsilon), by,
-                part * obstacle_factor_ * parameters.weight_dynamic_obstacle);
-    const double inflation_m = parameters.dynamic_obstacle_inflation_dist;
-    if (inflation_m > parameters.min_obstacle_dist)
-      squares.add(first_of(link.pose), above(apart.distance_m + link.evades_m, inflation_m, 0.0), by,
-                  part * parameters.weight_dynamic_obstacle_inflation);
   }
 }
 

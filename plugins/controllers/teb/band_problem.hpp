@@ -121,10 +121,6 @@ class BandProblem {
   template <bool with_derivatives>
   void add_closeness(WeightedSquares<with_derivatives>& squares, const ObstacleLink& link, double distance_m,
                      std::array<double, 3> by) const;
-  template <bool with_derivatives>
-  void bound_passings(WeightedSquares<with_derivatives>& squares) const;
-  template <bool with_derivatives>
-  void add_passings(WeightedSquares<with_derivatives>& squares) const;
   double cost_of_jumps() const;
   template <bool with_derivatives>
   void add_via_points(WeightedSquares<with_derivatives>& squares) const;
@@ -141,7 +137,6 @@ class BandProblem {
   std::vector<Velocity> aside_;  // of a holonomic drive, one a motion
   ObstacleLinker linker_;
   std::vector<ObstacleLink> links_;
-  std::vector<PassingLink> passings_;
   std::vector<ViaPointLink> via_links_;
 };
 

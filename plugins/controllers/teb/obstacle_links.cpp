@@ -12,12 +12,6 @@ namespace {
 // A pose may move by this much before the next association.
 constexpr double slack_m = 0.5;
 
-// A robot that evades needs this long until it moves aside. What is nearer in time demands its whole distance.
-constexpr double evades_after_s = 1.0;
-
-// Two robots meet head-on if the cosine between one's heading and the reverse of the other's velocity is at least this.
-constexpr double head_on = 0.7;
-
 // Obstacle links with this start distance ignore the start.
 constexpr double ignored_m = 1e9;
 
@@ -40,17 +34,6 @@ bool is_dynamic(const Obstacle& obstacle, const Parameters& parameters) {
 // Moving obstacles closer to the outline than this may affect a pose.
 double dynamic_reach(const Parameters& parameters) {
   return std::max(parameters.min_obstacle_dist, parameters.dynamic_obstacle_inflation_dist) + slack_m;
-}
-
-// A robot that comes toward this one evades as well: of the room that both need, it makes half, as steeply aside as bands
-// leave obstacles. Where ways cross, one passes before the other, and nobody makes room.
-double evades_by(const Obstacle& obstacle, double ahead_s, double heading, const Footprint& footprint,
-                 const Parameters& parameters) {
-  if (!parameters.share_evasion || !obstacle.is_robot) return 0.0;
-  const double speed = toolkit::norm(obstacle.velocity);
-  if (-toolkit::dot(obstacle.velocity, toolkit::from_angle(heading)) < head_on * speed) return 0.0;
-  const double half_m = 0.5 * (footprint.inscribed_radius_m + obstacle.radius_m + parameters.min_obstacle_dist);
-  return std::clamp(easing_slope * speed * (ahead_s - evades_after_s), 0.0, half_m);
 }
 
 }  // namespace
@@ -80,8 +63,7 @@ void ObstacleLinker::link(const TimedElasticBand& band, bool stops_at_goal, cons
       const Obstacle& obstacle = obstacles[k];
       if (is_dynamic(obstacle, parameters)) {
         if (!is_farther(at, obstacle, ahead_s, footprint.radius_m + dynamic_m))
-          links.push_back({i, k, ahead_s, true, ignored_m, ignored_m,
-                           evades_by(obstacle, ahead_s, pose.theta, footprint, parameters)});
+          links.push_back({i, k, ahead_s, true, ignored_m, ignored_m});
         continue;
       }
       if (is_farther(at, obstacle, 0.0, footprint.radius_m + cutoff_m)) continue;
@@ -106,31 +88,6 @@ void ObstacleLinker::measure_from(const Pose& pose, const Footprint& footprint, 
   for (std::size_t k = 0; k < obstacles.size(); ++k)
     if (!is_farther(toolkit::position(pose), obstacles[k], 0.0, footprint.radius_m + wanted_m))
       distances_m[k] = separation(footprint, pose, obstacles[k], 0.0).distance_m;
-}
-
-void link_passings(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
-                   const Parameters& parameters, std::vector<PassingLink>& links) {
-  links.clear();
-  const double near_m = footprint.radius_m + dynamic_reach(parameters);
-  for (std::uint32_t k = 0; k < obstacles.size(); ++k) {
-    const Obstacle& obstacle = obstacles[k];
-    if (!is_dynamic(obstacle, parameters)) continue;
-    double ahead_s = 0.0;
-    Vec2 from = band.position(0) - obstacle.center;
-    for (std::uint32_t i = 0; i < band.dt.size(); ++i) {
-      const Vec2 to = band.position(i + 1) - obstacle.center - displacement(obstacle, ahead_s + band.dt[i]);
-      const Vec2 passed = to - from;
-      const double squared = toolkit::squared_norm(passed);
-      const double share = squared > 0.0 ? -toolkit::dot(from, passed) / squared : 0.0;
-      if (share > 0.0 && share < 1.0 &&
-          toolkit::norm(from + share * passed) < near_m + obstacle.reach_m + obstacle.radius_m) {
-        const double met_s = ahead_s + share * band.dt[i];
-        links.push_back({i, k, share, met_s, evades_by(obstacle, met_s, band.theta[i], footprint, parameters)});
-      }
-      from = to;
-      ahead_s += band.dt[i];
-    }
-  }
 }
 
 void link_via_points(const TimedElasticBand& band, const std::vector<Vec2>& points, std::vector<ViaPointLink>& links) {

@@ -17,16 +17,6 @@ struct ObstacleLink {
   bool is_dynamic = false;  // predicted for that time
   double start_m = 0.0;     // the robot's current distance from a static obstacle; large if it does not matter
   double goal_m = 0.0;      // likewise its distance at the goal where it stops
-  double evades_m = 0.0;    // by which a moving robot will have made way, too
-};
-
-// A moving obstacle and the place between two poses where it comes closest to the band.
-struct PassingLink {
-  std::uint32_t pose = 0;  // the first of the two
-  std::uint32_t obstacle = 0;
-  double share = 0.0;     // of the way to the second
-  double ahead_s = 0.0;   // when the robot is there
-  double evades_m = 0.0;  // as above
 };
 
 struct ViaPointLink {
@@ -54,10 +44,6 @@ class ObstacleLinker {
 // this slope per metre between the robot and the pose. The robot cannot jump away, and if it must not drive backward,
 // it has to pass the obstacle first. Likewise before a goal that is too close to an obstacle.
 inline constexpr double easing_slope = 0.3;
-
-// Links moving obstacles with the intervals of the band in which they pass the robot.
-void link_passings(const TimedElasticBand& band, const Footprint& footprint, const std::vector<Obstacle>& obstacles,
-                   const Parameters& parameters, std::vector<PassingLink>& links);
 
 // Links each via-point to the closest pose, unless that is an end of the band.
 void link_via_points(const TimedElasticBand& band, const std::vector<Vec2>& points, std::vector<ViaPointLink>& links);
