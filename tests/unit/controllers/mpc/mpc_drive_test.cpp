@@ -108,10 +108,10 @@ TEST_CASE("Two MPC robots meet head-on where neither can pass the other alone") 
     }
     return arrived;
   };
-  CHECK(arrivals(starts, true) >= starts - 1);  // 59 of 60 by 30 draws
+  CHECK(arrivals(starts, true) >= starts - 1);  // 79 of 80 by 40 draws
   // two that turn back to their path at once may graze each other: each takes the other for slower than it will be
   CHECK(touched <= 1);
-  if (!tracking) CHECK(arrivals(5, false) < 5);  // 0 of 30, with tracking 27
+  CHECK(arrivals(5, false) < 5);
 }
 
 TEST_CASE("MPC reaches a goal that another robot crosses as it arrives") {
@@ -139,8 +139,8 @@ TEST_CASE("MPC drives through doors 18 to 25 cm wider than itself") {
 
 TEST_CASE("MPC drives through doors 15 cm wider than itself that it comes to at an angle") {
   Stream random(15, "doors");
-  int passed = 0;
   for (int round = 0; round < starts; ++round) {
+    CAPTURE(round);
     Course course;
     course.body.radius_m = course.body.inscribed_radius_m = 0.3;
     const double aside_m = random.uniform(-2.0, 2.0);
@@ -150,11 +150,8 @@ TEST_CASE("MPC drives through doors 15 cm wider than itself that it comes to at 
     course.start = jittered({0.0, aside_m, 0.0}, random);
     course.boxes = {{{3.6, middle_m + half_m}, {3.8, 4.0}}, {{3.6, -4.0}, {3.8, middle_m - half_m}}};
     course.sight = Sight::scan;
-    const Drive drive = run(mpc, course);
-    check_sound(drive);
-    passed += drive.arrived && drive.time_s < 30.0;
+    check_arrives(run(mpc, course), 30.0);
   }
-  CHECK(passed >= starts - 1);  // 1 of 90 stands before the door
 }
 
 }  // namespace mpc_drive_test
