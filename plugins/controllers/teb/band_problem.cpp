@@ -16,7 +16,7 @@ constexpr double shortest_dt_s = 0.01;
 // The preferred turning direction applies to this many intervals at the start.
 constexpr std::size_t turned_intervals = 3;
 
-// The least weight of driving forward if the limits forbid driving backward; the weight of intervals that are too long.
+// The least weight of driving forward if the limits forbid driving backward.
 constexpr double forbidding_weight = 1000.0;
 
 // The maximum number of intervals that the check between two poses divides their distance into.

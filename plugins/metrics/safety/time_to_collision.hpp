@@ -85,8 +85,8 @@ class TimeToCollision final : public ActiveTimeMetric<TimesToCollision> {
     const Moving& own = bodies_[robot];
     for (double horizon_s = std::max<double>(threshold_s, 1.0);; horizon_s *= 2.0) {
       const double until_s = std::min(horizon_s, latest_s);
-      // Whom it meets until then is that near to where it will be: they close in by their speed, and before, it has a
-      // way to go. Times are rounded by much less than a thousandth.
+      // A body that it meets by then is now within this distance of where the robot will be then: it comes no faster than
+      // the fastest. Times are rounded by much less than a thousandth.
       const double reach_m = 1.001 * (own.disc.radius_m + widest_m_ + fastest_ * until_s);
       double soonest_s = undefined;
       const std::size_t visited =

@@ -20,7 +20,7 @@ DMRP_LOCAL inline constexpr std::uint32_t no_way = std::numeric_limits<std::uint
 DMRP_LOCAL inline constexpr int straight_stride = 2;  // every second of the eight directions is one
 
 // The number of straight moves from each cell to the goal, over cells that are not closed; `no_way` without a way.
-// With a `start`, of the cells nearer than it and of itself; others may have `no_way`, too.
+// A `start` limits this to its own cell and those nearer to the goal; others may have `no_way`, too.
 inline std::vector<std::uint32_t> straight_steps_to(const GridView& grid, std::uint32_t goal,
                                                     const std::vector<bool>& closed, std::uint32_t start = no_cell) {
   assert(goal < grid.size() && closed.size() == grid.size());

@@ -48,8 +48,8 @@ class NavigationField {
     compute(grid, std::vector<Rectangle>{target}, cost);
   }
 
-  // The same field as far as the ways from the points `from` need it: what it says of a point is true where it knows
-  // the point.
+  // Computes the same field only as far as the ways from the points `from` need it: it tells the truth about a point
+  // that it knows.
   void compute_from(const GridView& grid, const std::vector<dmrp_vec2>& from, const Rectangle& target) {
     begin(grid, {target}, {});
     std::vector<std::uint32_t> starts;
