@@ -65,8 +65,6 @@ BoxTree::BoxTree(std::span<const toolkit::Rectangle> boxes) : implementation_(st
 }
 
 BoxTree::~BoxTree() = default;
-BoxTree::BoxTree(BoxTree&&) noexcept = default;
-BoxTree& BoxTree::operator=(BoxTree&&) noexcept = default;
 
 void BoxTree::touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const {
   assert(toolkit::is_ordered(box));
@@ -131,8 +129,6 @@ struct BodyPairs::Implementation {
 
 BodyPairs::BodyPairs() : implementation_(std::make_unique<Implementation>()) {}
 BodyPairs::~BodyPairs() = default;
-BodyPairs::BodyPairs(BodyPairs&&) noexcept = default;
-BodyPairs& BodyPairs::operator=(BodyPairs&&) noexcept = default;
 
 void BodyPairs::touching(std::span<const dmrp_vec2> centers, std::span<const double> radii,
                          std::vector<std::pair<std::uint32_t, std::uint32_t>>& found) {

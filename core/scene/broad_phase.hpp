@@ -19,8 +19,6 @@ class BoxTree {
  public:
   explicit BoxTree(std::span<const toolkit::Rectangle> boxes);
   ~BoxTree();
-  BoxTree(BoxTree&&) noexcept;
-  BoxTree& operator=(BoxTree&&) noexcept;
 
   // Indices of the boxes that touch `box`, ascending. Overwrites `found`.
   void touching(const toolkit::Rectangle& box, std::vector<std::uint32_t>& found) const;
@@ -40,8 +38,6 @@ class BodyPairs {
  public:
   BodyPairs();
   ~BodyPairs();
-  BodyPairs(BodyPairs&&) noexcept;
-  BodyPairs& operator=(BodyPairs&&) noexcept;
 
   // All pairs (a < b) of discs whose bounding boxes touch, in ascending order. Overwrites `found`.
   void touching(std::span<const dmrp_vec2> centers, std::span<const double> radii,

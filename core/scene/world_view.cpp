@@ -96,7 +96,6 @@ WorldView::WorldView(const Scenario& scenario, const RobotTypes& types, const Si
 
 WorldView::~WorldView() = default;
 WorldView::WorldView(WorldView&&) noexcept = default;
-WorldView& WorldView::operator=(WorldView&&) noexcept = default;
 
 const dmrp_world& WorldView::world() const {
   return storage_->world;

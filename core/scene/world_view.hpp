@@ -22,7 +22,6 @@ class WorldView {
             const StaticGeometry& geometry, const PlanningGrid& planning_grid, std::int64_t call_budget_ns);
   ~WorldView();
   WorldView(WorldView&&) noexcept;
-  WorldView& operator=(WorldView&&) noexcept;
 
   const dmrp_world& world() const;
 

@@ -2,7 +2,6 @@
 #include "core/statistics/mean_of_tasks.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -114,14 +113,6 @@ MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds,
   else if (defined.size() >= fewest_for_bootstrap_t)
     add_interval(result, values, resampling);
   return result;
-}
-
-MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
-                                const Resampling& resampling) {
-  assert(a.size() == b.size());
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
-  return difference_of_tasks(differences, bounds, resampling);
 }
 
 PaddedMean padded_mean(std::span<const double> differences, double span) {

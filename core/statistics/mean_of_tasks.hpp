@@ -37,15 +37,11 @@ struct MeanOfTasks {
 // the data show no spread.
 MeanOfTasks mean_of_tasks(std::span<const double> by_task, const Bounds& bounds, const Resampling& resampling);
 
-// The mean of b - a, over observations in which both are defined. `bounds`: of the values. The interval of bounded ones is
-// Student's over n + 2 observations, two of which are the largest differences that bounds allow, up and down: so that one
-// rare difference does not decide (as Agresti and Coull add successes and failures to shares: The American Statistician 52,
-// 1998). It stays within these bounds.
-MeanOfTasks difference_of_tasks(std::span<const double> a, std::span<const double> b, const Bounds& bounds,
-                                const Resampling& resampling);
-
-// `differences` are already paired (the times of robots that arrived with both). The interval of unbounded ones is the
-// bootstrap-t from ten observations on, Student's from five.
+// The mean of paired differences, over observations in which they are defined. `bounds`: of the values, not of their
+// differences. The interval of bounded ones is Student's over n + 2 observations, two of which are the largest differences
+// that bounds allow, up and down: so that one rare difference does not decide (as Agresti and Coull add successes and
+// failures to shares: The American Statistician 52, 1998). It stays within these bounds. The interval of unbounded ones is
+// the bootstrap-t from ten observations on, Student's from five.
 MeanOfTasks difference_of_tasks(std::span<const double> differences, const Bounds& bounds,
                                 const Resampling& resampling);
 

@@ -59,8 +59,10 @@ int validate_command(const std::filesystem::path& file) {
   fmt::print("{}", map_lines(experiment));
   if (const std::string line = power_line(experiment); !line.empty()) fmt::print("{}\n", line);
   std::fflush(stdout);
-  if (const std::string cost = sampled_cost(experiment, default_jobs()); !cost.empty())
-    fmt::print("{} trials: {}, with {}\n", count * experiment.trials, cost, plural(default_jobs(), "job"));
+  const std::optional<std::string> cost = sampled_cost(experiment, default_jobs());
+  if (!cost) return exit_status::interrupted;
+  if (!cost->empty())
+    fmt::print("{} trials: {}, with {}\n", count * experiment.trials, *cost, plural(default_jobs(), "job"));
   return exit_status::done;
 }
 

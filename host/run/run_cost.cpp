@@ -119,7 +119,7 @@ std::string RunCost::words() const {
   return fmt::format("about {}, {}", time_words(wall_s()), size_words(bytes()));
 }
 
-std::string sampled_cost(const Experiment& experiment, unsigned jobs) {
+std::optional<std::string> sampled_cost(const Experiment& experiment, unsigned jobs) {
   const std::size_t count = combinations(experiment).size();
   const std::uint64_t trials = count * experiment.trials;
   if (trials < fewest_trials_with_cost) return "";
@@ -129,7 +129,9 @@ std::string sampled_cost(const Experiment& experiment, unsigned jobs) {
   const SupervisorSinks sinks = {[&](TrialRecord&& trial) { cost.add(trial); },
                                  [](std::uint64_t, const FaultRecord&) {}, [](const std::string&) {},
                                  [&] { return !cost.is_known(); }};
-  supervise(experiment, PlannedTrials(first_trials(count)), {jobs, folder.path(), trials}, sinks);
+  const RunEnding ending =
+      supervise(experiment, PlannedTrials(first_trials(count)), {jobs, folder.path(), trials}, sinks);
+  if (ending == RunEnding::interrupted && !cost.is_known()) return std::nullopt;
   return cost.words();
 }
 

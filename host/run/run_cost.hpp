@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ class RunCost {
 };
 
 // RunCost::words() of a run that has not begun, from trials in a temporary folder, as long as it takes to know it; "" if
-// it has too few trials. Throws as supervise().
-std::string sampled_cost(const Experiment& experiment, unsigned jobs);
+// it has too few trials. nullopt if a signal came. Throws as supervise().
+std::optional<std::string> sampled_cost(const Experiment& experiment, unsigned jobs);
 
 }  // namespace dmrp::host

@@ -141,9 +141,6 @@ std::string TomlValue::type_name() const {
   }
 }
 
-bool TomlValue::is_integer() const {
-  return node_->is_integer();
-}
 bool TomlValue::is_text() const {
   return node_->is_string();
 }

@@ -100,7 +100,6 @@ class TomlValue {
   std::vector<TomlValue> array() const;
   TomlTable table(const std::string& title = "") const;  // `title`: its name in messages; "": its key
 
-  bool is_integer() const;
   bool is_text() const;
   bool is_array() const;
   bool is_table() const;

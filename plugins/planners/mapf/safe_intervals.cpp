@@ -38,17 +38,6 @@ std::int32_t SafeIntervals::agent_at(Location location, std::int32_t t) const {
   return i < there.size() && there[i].from <= t ? there[i].agent : -1;
 }
 
-bool SafeIntervals::is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const {
-  assert(t > 0);
-  const auto there = occupations(to);
-  const std::size_t i = index_at(there, t - 1);
-  std::size_t at_t = i;
-  if (i < there.size() && there[i].to == t - 1) ++at_t;  // that robot leaves in this step
-  if (at_t < there.size() && there[at_t].from <= t && there[at_t].agent != agent) return true;
-  if (from == to || at_t == i || there[i].agent == agent) return false;
-  return agent_at(from, t) == there[i].agent;  // a swap
-}
-
 void SafeIntervals::list_step_conflicts(Location from, Location to, std::int32_t t,
                                         std::vector<std::int32_t>& agents) const {
   assert(t > 0);

@@ -50,9 +50,6 @@ class SafeIntervals {
     return count == 1 && first->to < t ? index + 1 : index;
   }
 
-  // Whether a move or wait that arrives at time t > 0 conflicts with a robot other than `agent`.
-  bool is_blocked(std::int32_t agent, Location from, Location to, std::int32_t t) const;
-
   // The robots with which a move or wait that arrives at time t > 0 conflicts.
   void list_step_conflicts(Location from, Location to, std::int32_t t, std::vector<std::int32_t>& agents) const;
 
