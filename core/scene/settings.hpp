@@ -123,6 +123,8 @@ enum class LocalRoute { path, around };  // around: the path is led around what 
 struct NavigationSettings {
   LocalRoute route = LocalRoute::path;
   bool monitor = false;  // collision_monitor.hpp
+  // Controllers observe the state that their robot will be in when the command that they answer takes effect.
+  bool compensate_latency = false;
 };
 
 // What planners plan for. A point is a disc of radius planning_margin_m to walls, and has no extent to other robots.

@@ -141,6 +141,14 @@ dmrp_twist World::command_at(std::uint32_t robot, std::int64_t t_ns) const {
   return command;
 }
 
+DriveState World::state_at_command(std::uint32_t robot) const {
+  const RobotState& now = robots_[robot];
+  DriveState state = {now.pose, now.velocity, now.steering_rad};
+  for (std::int64_t t_ns = t_ns_; t_ns < t_ns_ + command_latency_ns(robot); t_ns += settings_.step_ns)
+    state = advance(state, command_at(robot, t_ns), settings_of_[robot]->drive, limits_[robot], step_s());
+  return state;
+}
+
 // Brakes without latency: the base does this itself.
 void World::stop(std::uint32_t robot) {
   robots_[robot].command = {};

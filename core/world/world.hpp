@@ -88,6 +88,9 @@ class World {
   // The command that is in effect at this time, now or later, if no other one is set.
   dmrp_twist command_at(std::uint32_t robot, std::int64_t t_ns) const;
 
+  // The robot as it will be when a command that is made now takes effect, if nothing is in its way.
+  DriveState state_at_command(std::uint32_t robot) const;
+
   // The next goal of an active robot, which it has, becomes current.
   void visit(std::uint32_t robot);
 

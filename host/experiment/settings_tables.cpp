@@ -147,7 +147,8 @@ Settings recovery_settings(core::RecoverySettings& to) {
 }
 
 Settings navigation_settings(core::NavigationSettings& to) {
-  return {choice("route", to.route, {"path", "around"}), boolean("monitor", to.monitor)};
+  return {choice("route", to.route, {"path", "around"}), boolean("monitor", to.monitor),
+          boolean("compensate_latency", to.compensate_latency)};
 }
 
 namespace {

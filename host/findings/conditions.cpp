@@ -24,6 +24,12 @@ std::string helped(const toml::node_view<const toml::node> table, std::string_vi
   return fmt::format("{}{}", helps ? "" : "no ", name);
 }
 
+// Most experiments have no latency, and say nothing of it.
+std::string latency_words(const toml::node_view<const toml::node> navigation) {
+  if (is_swept(navigation, "compensate_latency")) return "latency compensation swept";
+  return navigation["compensate_latency"].value_or(false) ? "latency compensated" : "";
+}
+
 std::string replanning_words(const toml::node_view<const toml::node> simulation) {
   for (const char* key : {"replan_period_s", "replan_period_steps", "replan_stray_m", "replan_stall_s"}) {
     if (is_swept(simulation, key)) return "replanning swept";
@@ -70,6 +76,7 @@ std::string conditions_words(std::string_view effective_toml, std::string_view e
   const std::vector<std::string> all = {
       helped(navigation, "route", navigation["route"].value_or(std::string()) == "around", "local routes"),
       helped(navigation, "monitor", navigation["monitor"].value_or(false), "collision monitor"),
+      latency_words(navigation),
       helped(recovery, "retries", recovery["retries"].value_or(0) > 0, "recoveries"),
       replanning_words(simulation),
       "tracking " + tracking,

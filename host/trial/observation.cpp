@@ -5,6 +5,23 @@
 
 namespace dmrp::host {
 
+namespace {
+
+// Moves the observation to the moment at which the answer's command takes effect. Others stay where the robot sees them.
+void compensate_latency(std::uint32_t robot, const core::World& world, const core::Odometry& odometry,
+                        dmrp_observation& observation) {
+  const core::DriveState then = world.state_at_command(robot);
+  const dmrp_twist& now = world.robots()[robot].velocity;
+  observation.pose = odometry.to_estimated(then.pose);
+  observation.velocity.v_x += then.velocity.v_x - now.v_x;
+  observation.velocity.v_y += then.velocity.v_y - now.v_y;
+  observation.velocity.omega += then.velocity.omega - now.omega;
+  observation.applied = world.command_at(robot, world.t_ns() + world.command_latency_ns(robot));
+  observation.steering_angle = then.steering_rad;
+}
+
+}  // namespace
+
 dmrp_observation observation_of(std::uint32_t robot, const Guidance& guidance, const VariantWorld& variant,
                                 const core::World& world, RobotSensors& sensors) {
   const core::RobotState& state = world.robots()[robot];
@@ -32,6 +49,8 @@ dmrp_observation observation_of(std::uint32_t robot, const Guidance& guidance, c
   observation.agent_count = static_cast<std::uint32_t>(agents.size());
   observation.agent_stride = sizeof(dmrp_agent);
   observation.steering_angle = state.steering_rad;
+  if (variant.simulation.navigation.compensate_latency && world.command_latency_ns(robot) > 0)
+    compensate_latency(robot, world, sensors.odometry(), observation);
   return observation;
 }
 

@@ -11,7 +11,8 @@ namespace dmrp::controllers::mpc {
 
 namespace {
 
-// Poses closer by no more than this count as no closer.
+// Poses closer by no more than this count as no closer: the solver meets a distance to its tolerance, and a pose between
+// two states that touch an obstacle cuts the chord.
 constexpr double rounding_m = 1e-3;
 
 // A robot that is on its way evades too, so a predicted contact with it counts only if it is less than the braking time
@@ -22,7 +23,7 @@ constexpr double shared_evasion_s = 1.0;
 constexpr double agent_cells_m = 0.15;
 
 double needed_from(const Obstacle& obstacle) {
-  return obstacle.is_agent ? least_gap_m : 0.0;
+  return obstacle.is_agent ? least_gap_m : -rounding_m;
 }
 
 // A robot that already stands closer than it needs may move as long as it comes no closer to this obstacle.

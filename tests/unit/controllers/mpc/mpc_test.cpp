@@ -544,4 +544,11 @@ TEST_CASE("A robot close to one obstacle comes no closer to it, nor to another o
   CHECK_FALSE(room.allows({beside_wall, {0.70, 0.04, 0.5 * pi}}));  // 1 cm from the corner
 }
 
+TEST_CASE("A trajectory that touches a static obstacle within the solver's tolerance is free") {
+  Room room;
+  for (Obstacle& obstacle : room.obstacles) obstacle.is_agent = false;
+  CHECK(room.allows({{0.5, -1.0, 0.0}, {0.7502, -1.0, 0.0}}));
+  CHECK_FALSE(room.allows({{0.5, -1.0, 0.0}, {0.755, -1.0, 0.0}}));
+}
+
 }  // namespace mpc_test

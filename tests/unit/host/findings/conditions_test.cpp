@@ -16,12 +16,13 @@ TEST_CASE("conditions name what helps controllers, and what is swept", "[finding
 
   const char* helped =
       "[simulation]\ntracking = 'visible'\nreplan_period_steps = 5\n[navigation]\nroute = 'around'\nmonitor = true\n"
-      "[recovery]\nretries = 6\n[[pedestrian_model]]\nparams = { robot_awareness = 0.5 }\n";
+      "compensate_latency = true\n[recovery]\nretries = 6\n[[pedestrian_model]]\nparams = { robot_awareness = 0.5 }\n";
   const char* written =
       "[[local_controller]]\nparams_file = 'controllers/tuned/dwa.toml'\n[[local_controller]]\nuse = 'mine'\n"
       "[[local_controller]]\nparams_file = './mpc.toml'\n";
   CHECK(conditions_words(helped, written) ==
-        "local routes, collision monitor, recoveries, replanning, tracking visible, default and own and tuned "
+        "local routes, collision monitor, latency compensated, recoveries, replanning, tracking visible, default and "
+        "own and tuned "
         "parameters, "
         "robot awareness 0.5");
 
