@@ -20,6 +20,10 @@ WORLDS = Path(__file__).resolve().parent / "worlds.toml"
 CONDITIONS = {
     "as in worlds.toml": {},
     "commands 0.2 s late": {"simulation": {"control_latency_s": 0.2}},
+    "the same, compensated": {
+        "simulation": {"control_latency_s": 0.2},
+        "navigation": {"compensate_latency": True},
+    },
     "ranges with 3 cm of noise": {"robot": {"lidar": {"noise_sd_m": 0.03}}},
     "one beam of ten drops out": {"robot": {"lidar": {"dropout_share": 0.1}}},
     "odometry drifts, a fix each 2 s": {"robot": {"odometry": {"noise": [0.05, 0.05, 0.05, 0.05], "fix_period_s": 2.0}}},
@@ -32,8 +36,8 @@ def experiment(condition: dict) -> dmrp.Experiment:
     keys = tomllib.loads(WORLDS.read_text())
     settings = keys.pop("experiment") | {"trials": 9, "name": "dmrp1-sensitivity"}
     keys["global_planner"] = [planner for planner in keys["global_planner"] if planner["label"] == "CBS"]
-    keys["simulation"] |= condition.get("simulation", {})
-    keys |= {"robot": condition["robot"]} if "robot" in condition else {}
+    for table, changes in condition.items():
+        keys[table] = keys.get(table, {}) | changes
     return dmrp.Experiment(**settings, **keys)
 
 

@@ -39,9 +39,7 @@ NEEDS = {
         "gaps": {"ease_from_start": "true", "ease_to_goal": "true"},
     },
     "mpc": {
-        "head-on": {"share_evasion": "true"},
         "gaps": {"ease_in_gaps": "true"},
-        "head-on and gaps": {"share_evasion": "true", "ease_in_gaps": "true"},
         "makes room": {"make_room": "true"},
     },
     "e3mop": {

@@ -15,10 +15,6 @@ namespace {
 // two states that touch an obstacle cuts the chord.
 constexpr double rounding_m = 1e-3;
 
-// A robot that is on its way evades too, so a predicted contact with it counts only if it is less than the braking time
-// and this ahead. Where two have to share the room, as in a narrow corridor, neither could plan past the other alone.
-constexpr double shared_evasion_s = 1.0;
-
 // Occupied cells within this distance of an agent count as the agent's.
 constexpr double agent_cells_m = 0.15;
 
@@ -43,9 +39,7 @@ bool is_free(const Pose& pose, double ahead_s, const Surroundings& around) {
   const Footprint& footprint = around.now.footprint;
   bool beside_agent = false;
   for (const Obstacle& obstacle : around.obstacles) {
-    const bool evades_too = around.robots_evade && obstacle.is_robot && obstacle.velocity != Vec2{0.0, 0.0} &&
-                            ahead_s > around.now.velocity.v_x / around.now.limits.a_max + shared_evasion_s;
-    if (!evades_too && comes_too_close(pose, obstacle, ahead_s, needed_from(obstacle), around)) return false;
+    if (comes_too_close(pose, obstacle, ahead_s, needed_from(obstacle), around)) return false;
     beside_agent =
         beside_agent || (obstacle.is_agent && least_distance(footprint, robot, obstacle, 0.0) < agent_cells_m);
   }

@@ -17,7 +17,6 @@ struct Surroundings {
   const Observation& now;
   const std::vector<Obstacle>& obstacles;
   FootprintCheck& footprint;  // on the costmap
-  bool robots_evade = true;   // moving robots evade too: contacts with them count only for a while
 };
 
 // Whether the first `most_states` states (-1: all) are free, state k at the time k dt_s.

@@ -102,7 +102,7 @@ Status Mpc::control(const Observation& now, Command& command) {
   }
   if (is_standing && turn_.begin_if_slow(route_, now) && turn_.goes_on(now, footprint, command)) return Status::ok;
   pose_problem(now, map, *target);
-  const std::optional<int> solver_iterations = plan({{now, obstacles, footprint, share_evasion}, map}, *target);
+  const std::optional<int> solver_iterations = plan({{now, obstacles, footprint}, map}, *target);
   if (!solver_iterations) {
     trajectory_.clear();
     if (is_standing) {

@@ -28,9 +28,6 @@ class Mpc final : public PathController {
       param("dt_ref", 0.3).unit("s").range(0.01, 10.0).doc("time step that the grid adaptation aims at");
   Param<double> min_dt = param("min_dt", 0.0).unit("s").range(0.0, 1.0).doc("least time step");
   Param<double> max_dt = param("max_dt", 10.0).unit("s").range(0.1, 100.0).doc("greatest time step");
-  Param<bool> share_evasion =
-      param("share_evasion", true)
-          .doc("departure: a contact with a moving robot counts within the braking time and a second: it evades too");
   Param<bool> ease_in_gaps =
       param("ease_in_gaps", true)
           .doc("departure: a way through a gap too narrow for min_obstacle_dist keeps as much as there is room for");
