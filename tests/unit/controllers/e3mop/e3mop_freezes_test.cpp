@@ -6,6 +6,7 @@
 #include <dmrp/toolkit/random.hpp>
 #include <functional>
 
+#include "core/execution/collision_monitor.hpp"
 #include "tests/unit/controllers/controllers.hpp"
 
 namespace e3mop_freezes_test {
@@ -49,6 +50,16 @@ Course at_contact(Stream& random) {
   return course;
 }
 
+// It starts beside the end of a shelf, and its path leads round the end.
+Course round_shelf(Stream& random) {
+  Course course;
+  course.boxes = {{{0.9, -0.1}, {2.1, 6.0}}};
+  course.start = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(-0.05, 0.05)};
+  course.path = metre_path({{0.0, 0.0}, {0.0, -1.0}, {4.0, -1.0}});
+  course.sight = Sight::scan;
+  return course;
+}
+
 // Pairs of robots that pass each other head-on in corridors 1.25 to 1.45 m wide; counts at most one that does not.
 int pairs_that_pass(bool keeps_right, bool tracking) {
   ParamOverrides parameters = tuned_parameters("dmrp.controller.e3mop");
@@ -75,6 +86,12 @@ TEST_CASE("E3MoP leaves a wall that it stands at") {
   const Outcome mended = drive_all(at_contact);
   CHECK(mended.arrived == starts);
   CHECK(mended.static_clearance_m > 0.0);
+}
+
+TEST_CASE("E3MoP keeps the gap of a collision monitor at a corner") {
+  const Outcome outcome = drive_all(round_shelf);
+  CHECK(outcome.arrived == starts);
+  CHECK(outcome.static_clearance_m >= dmrp::core::monitor_gap_m);
 }
 
 TEST_CASE("Two E3MoP robots pass each other in a corridor where each has to keep to its wall") {
