@@ -29,6 +29,9 @@ typedef struct dmrp_agent {
 // If the experiment sets odometry noise, `pose` is the robot's estimate and `velocity` its odometry reading; agents,
 // lidar and costmap are then placed relative to the estimated pose, as in a robot's own map. Goal and path keep their
 // true places; progress, arrival and metrics use the true pose.
+//
+// If the experiment compensates latency, `pose`, `velocity`, `applied` and `steering_angle` are those to which the
+// commands under way lead the robot by the time at which the answer takes effect.
 typedef struct dmrp_observation {
   uint32_t struct_size;
   uint32_t robot;       // index
