@@ -24,8 +24,9 @@ struct Witness {
 };
 
 void bound(Obstacle& obstacle) {
-  Vec2 lower = obstacle.vertices[0];
-  Vec2 upper = lower;
+  Vec2& lower = obstacle.lower;
+  Vec2& upper = obstacle.upper;
+  lower = upper = obstacle.vertices[0];
   for (std::uint32_t i = 1; i < obstacle.vertex_count; ++i) {
     lower = {std::min(lower.x, obstacle.vertices[i].x), std::min(lower.y, obstacle.vertices[i].y)};
     upper = {std::max(upper.x, obstacle.vertices[i].x), std::max(upper.y, obstacle.vertices[i].y)};
@@ -171,8 +172,14 @@ Vec2 displacement(const Obstacle& obstacle, double ahead_s) {
 }
 
 double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s) {
-  return toolkit::distance(robot, obstacle.center + displacement(obstacle, ahead_s)) - obstacle.reach_m -
-         obstacle.radius_m - footprint.radius_m;
+  constexpr double rounding_m = 1e-9;
+  const Vec2 moved = displacement(obstacle, ahead_s);
+  const Vec2 at = robot - moved;
+  const Vec2 beside = {std::max({obstacle.lower.x - at.x, at.x - obstacle.upper.x, 0.0}),
+                       std::max({obstacle.lower.y - at.y, at.y - obstacle.upper.y, 0.0})};
+  double least_m = toolkit::distance(robot, obstacle.center + moved) - obstacle.reach_m;
+  if (beside != Vec2{0.0, 0.0}) least_m = std::max(least_m, toolkit::norm(beside) - rounding_m);
+  return least_m - obstacle.radius_m - footprint.radius_m;
 }
 
 Separation separation(const Footprint& footprint, const Pose& robot, const Obstacle& obstacle, double ahead_s) {

@@ -4,6 +4,7 @@
 
 #include <dmrp/ext/obstacle_clusters.h>
 
+#include <cmath>
 #include <cstdint>
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
@@ -15,11 +16,13 @@ struct Obstacle {
   const Vec2* vertices = nullptr;  // counter-clockwise; owned by an ObstacleSet
   std::uint32_t vertex_count = 0;  // 1: a point; 2: a segment
   double radius_m = 0.0;
-  Vec2 velocity = {0.0, 0.0};  // m/s
-  Vec2 center = {0.0, 0.0};    // of a circle that contains the vertices ...
-  double reach_m = 0.0;        // ... of this radius
-  bool is_agent = false;       // a tracked robot or person
-  bool is_robot = false;       // a tracked robot
+  Vec2 velocity = {0.0, 0.0};           // m/s
+  Vec2 center = {0.0, 0.0};             // of a circle that contains the vertices ...
+  double reach_m = 0.0;                 // ... of this radius
+  Vec2 lower = {-HUGE_VAL, -HUGE_VAL};  // of a box that contains them
+  Vec2 upper = {HUGE_VAL, HUGE_VAL};
+  bool is_agent = false;  // a tracked robot or person
+  bool is_robot = false;  // a tracked robot
 };
 
 // How far the obstacle will have moved.

@@ -219,11 +219,13 @@ template <bool with_derivatives>
 void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) const {
   const Parameters& parameters = *parameters_;
   for (const ObstacleLink& link : links_) {
-    const Separation apart =
-        separation(*scene_->footprint, band_->pose(link.pose), (*scene_->obstacles)[link.obstacle], link.ahead_s);
+    const Obstacle& obstacle = (*scene_->obstacles)[link.obstacle];
+    const double inflation_m = link.is_dynamic ? parameters.dynamic_obstacle_inflation_dist : parameters.inflation_dist;
+    const double free_m = std::max(inflation_m, parameters.min_obstacle_dist + parameters.penalty_epsilon);
+    if (least_distance(*scene_->footprint, band_->position(link.pose), obstacle, link.ahead_s) >= free_m) continue;
+    const Separation apart = separation(*scene_->footprint, band_->pose(link.pose), obstacle, link.ahead_s);
     const std::array<double, 3> by = {apart.gradient.x, apart.gradient.y, apart.gradient_theta};
     add_closeness(squares, link, apart.distance_m, by);
-    const double inflation_m = link.is_dynamic ? parameters.dynamic_obstacle_inflation_dist : parameters.inflation_dist;
     if (inflation_m <= parameters.min_obstacle_dist) continue;
     squares.add(first_of(link.pose), above(apart.distance_m, inflation_m, 0.0), by,
                 link.is_dynamic ? parameters.weight_dynamic_obstacle_inflation : parameters.weight_inflation);
