@@ -12,7 +12,7 @@ protocol_of() {
   read -r verdict <&3
   [[ $verdict == "$1: good."* ]] || fail "$1 is not valid: $(cat "$scratch/stderr")"
   read -r protocol <&3
-  kill $!
+  kill $! && wait $!
   protocol=${protocol#Protocol }
   echo "${protocol%%:*}"
 }

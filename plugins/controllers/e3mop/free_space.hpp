@@ -26,8 +26,9 @@ class FreeSpace {
     needed_m_ = static_cast<float>(radius_m + padding_m);
     const double start_clearance_m = field.at(start_).distance_m;
     escapes_ = start_clearance_m < needed_m_ + 0.7 * field.resolution_m();
-    // the tolerance must not add up from period to period: near contact, the robot may come no closer. A corner lies 0.7
-    // cells beyond the centre of its cell: what is left of 0.95 is more than the gap that a collision monitor keeps.
+    // the tolerance must not add up from period to period: near contact, the robot may come no closer. The corner of an
+    // obstacle lies up to 0.7 cells beyond the centre of its cell, from which distances count; the other 0.25 cells, of
+    // 0.05 m, are more than the 0.01 m that a collision monitor keeps.
     const double nearest_m = radius_m + 0.95 * field.resolution_m();
     tolerated_m_ = std::max(std::min<double>(start_clearance_m, needed_m_) - variation_m,
                             std::min(start_clearance_m, nearest_m) - least_variation_m);

@@ -172,6 +172,7 @@ Vec2 displacement(const Obstacle& obstacle, double ahead_s) {
 }
 
 double least_distance(const Footprint& footprint, Vec2 robot, const Obstacle& obstacle, double ahead_s) {
+  // The circle around the vertices is wide beside a long obstacle; from outside of their box, that says more.
   constexpr double rounding_m = 1e-9;
   const Vec2 moved = displacement(obstacle, ahead_s);
   const Vec2 at = robot - moved;

@@ -19,7 +19,7 @@ struct Obstacle {
   Vec2 velocity = {0.0, 0.0};           // m/s
   Vec2 center = {0.0, 0.0};             // of a circle that contains the vertices ...
   double reach_m = 0.0;                 // ... of this radius
-  Vec2 lower = {-HUGE_VAL, -HUGE_VAL};  // of a box that contains them
+  Vec2 lower = {-HUGE_VAL, -HUGE_VAL};  // of a box that contains them; the whole plane where nobody sets it
   Vec2 upper = {HUGE_VAL, HUGE_VAL};
   bool is_agent = false;  // a tracked robot or person
   bool is_robot = false;  // a tracked robot

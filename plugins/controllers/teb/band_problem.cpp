@@ -221,6 +221,7 @@ void BandProblem::add_obstacles(WeightedSquares<with_derivatives>& squares) cons
   for (const ObstacleLink& link : links_) {
     const Obstacle& obstacle = (*scene_->obstacles)[link.obstacle];
     const double inflation_m = link.is_dynamic ? parameters.dynamic_obstacle_inflation_dist : parameters.inflation_dist;
+    // from this distance on, an obstacle costs nothing
     const double free_m = std::max(inflation_m, parameters.min_obstacle_dist + parameters.penalty_epsilon);
     if (least_distance(*scene_->footprint, band_->position(link.pose), obstacle, link.ahead_s) >= free_m) continue;
     const Separation apart = separation(*scene_->footprint, band_->pose(link.pose), obstacle, link.ahead_s);
