@@ -79,8 +79,6 @@ PlannerRun run_planner(const Experiment& experiment, const PlanTask& task) {
   } catch (const PluginFault& fault) {
     run.fault = fault.kind();
     run.detail = words_of(fault);
-    if (run.fault == fault_kind::out_of_memory && experiment.limits.memory_mb > 0)
-      run.detail += fmt::format(" (its process may take {} MB)", experiment.limits.memory_mb);
   } catch (const std::runtime_error& error) {
     run.fault = fault_kind::abi_breach;
     run.detail = error.what();

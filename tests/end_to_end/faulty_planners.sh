@@ -28,7 +28,7 @@ expect nan bad_output "robot 0, waypoint 3"
 expect no_time bad_output "robot 0, waypoint 1"
 expect path_twice error_status "refused the path of robot 0"
 expect missing_path bad_output "without a path for every robot"
-if $limited; then expect memory out_of_memory "."; fi
+if $limited; then expect memory out_of_memory "memory_mb = 400"; fi
 
 outcomes=$(query "$scratch/faults" "SELECT global_planner, outcome, (SELECT count(*) FROM fault WHERE trial_id = trial.id),
   (SELECT count(*) FROM value WHERE trial_id = trial.id AND metric = 'success' AND subject_kind = 'system'

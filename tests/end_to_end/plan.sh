@@ -127,7 +127,7 @@ cmp -s "$scratch/drawn.csv" "$scratch/again.csv" || fail "other tasks from the s
 expect_status 0 "$host" plan --map "$maps/rooms.map" --draw 12 --seed 4 --planner dmrp.planner.lns --paths "$scratch/again.csv" --json
 cmp -s "$scratch/drawn.csv" "$scratch/again.csv" && fail "the same tasks from another seed"
 if [[ -z $sanitizers ]]; then
-  expect_fault memory out_of_memory "test.planner.faulty: plan\(\): .*may take 700 MB" --memory-limit 700
+  expect_fault memory out_of_memory "test.planner.faulty: plan\(\): .*memory_mb = 700" --memory-limit 700
 fi
 
 # --- mistakes: one line, status 2

@@ -252,7 +252,7 @@ void LacamSearch::shorten_ways(NodeId from, NodeId to, std::int64_t g) {
 std::int64_t LacamSearch::step_cost(const Node& from, const Node& to) const {
   std::int64_t cost = 0;
   for (std::int32_t agent = 0; agent < static_cast<std::int32_t>(problem_.agents.size()); ++agent)
-    cost += pibt_.distance(from.at, agent) == 0 && pibt_.distance(to.at, agent) == 0 ? 0 : 1;
+    cost += pibt_.rests(from.at, agent) && pibt_.rests(to.at, agent) ? 0 : 1;
   return cost;
 }
 
@@ -281,7 +281,7 @@ bool LacamSearch::search_least_sum() {
   for (const Node& from : nodes_) {
     LeastSum::Place place{from.g, {}, from.successors};
     for (std::int32_t agent = 0; agent < static_cast<std::int32_t>(problem_.agents.size()); ++agent)
-      place.is_underway.push_back(pibt_.distance(from.at, agent) != 0);
+      place.is_underway.push_back(!pibt_.rests(from.at, agent));
     search.add(std::move(place));
   }
   const auto way = search.run(goal_);

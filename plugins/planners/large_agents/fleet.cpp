@@ -208,11 +208,10 @@ std::optional<PreparedFleet> prepare_fleet(const PlanningProblem& problem, StopS
     out.obstruction = std::move(*overlap);
     return out;
   }
-  std::vector<Location> queue;
   for (AgentIndex i = 0; i < out.fleet.size(); ++i) {
     const Agent& agent = out.fleet.agents[static_cast<std::size_t>(i)];
-    out.tables.emplace_back(out.fleet.graph(i), agent, queue, stop);
-    if (stop.raised()) return std::nullopt;
+    out.tables.emplace_back(out.fleet.graph(i), agent);
+    if (stop.poll_now()) return std::nullopt;
     if (agent.start != nowhere && out.tables.back().distance(0, agent.start) < TourTable::unreachable) continue;
     out.obstruction = name_of(agent.robot) + " cannot reach its goal";
     return out;

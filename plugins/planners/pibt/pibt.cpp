@@ -33,7 +33,7 @@ std::vector<Configuration> run_pibt(const Preparation& prepared, std::vector<std
     const Configuration& now = configurations.back();
     bool all_rest = true;
     for (std::int32_t agent = 0; agent < agents; ++agent) {
-      const bool rests = pibt.distance(now, agent) == 0;
+      const bool rests = pibt.rests(now, agent);
       std::int32_t& steps = steps_underway[static_cast<std::size_t>(agent)];
       steps = rests ? 0 : steps + 1;
       all_rest = all_rest && rests;

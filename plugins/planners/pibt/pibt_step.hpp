@@ -42,7 +42,14 @@ class PibtStep {
   bool step(const Configuration& from, std::span<const std::int32_t> order, std::span<const Fixed> fixed,
             toolkit::Stream& random, Configuration& to);
 
-  // Steps to the end of the robot's tour from its place in the configuration; 0 if it can rest there.
+  // Whether the robot is at the end of its tour.
+  bool rests(const Configuration& at, std::int32_t agent) const {
+    const auto i = static_cast<std::size_t>(agent);
+    const Agent& robot = problem_.agents[i];
+    return at.locations[i] == robot.last_goal() && at.legs[i] == robot.last_leg();
+  }
+
+  // Steps to the end of the robot's tour from its place in the configuration.
   std::int32_t distance(const Configuration& at, std::int32_t agent) const {
     const auto i = static_cast<std::size_t>(agent);
     return tables_[i].distance(at.legs[i], at.locations[i]);

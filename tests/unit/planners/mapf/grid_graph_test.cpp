@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The graph of a grid, and the proofs that a problem on it has no plan.
+// The graph of a grid, distances on it, and the proofs that a problem on it has no plan.
 #include "planners/mapf/grid_graph.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "planners/mapf/solvability.hpp"
+#include "planners/mapf/tour_table.hpp"
 #include "tests/unit/planners/mapf/problem_case.hpp"
 
 namespace grid_graph_test {
@@ -52,6 +53,28 @@ TEST_CASE("a graph numbers the free cells only") {
     }
   CHECK(graph.neighbor(graph.at(1, 0), 1) == graph.at(1, 1));
   CHECK(graph.neighbor(graph.at(1, 0), 0) == nowhere);
+}
+
+TEST_CASE("distances count the steps of the whole tour, however long it is") {
+  // one way down the left column and up the right one: neighbors in a row may be farther apart than 16 bits count
+  for (const int rows : {9, 40'000}) {
+    std::vector<std::string> cells(static_cast<std::size_t>(rows), ".#.");
+    cells.back() = "...";
+    PlanningCase c(cells);
+    c.robot({0, 0}, {{2, 0}, {0, 1}});
+    const Problem problem = problem_of(c);
+    const TourTable table(problem.graph, problem.agents[0]);
+    const int whole = 2 * rows;  // from one end to the other
+    const auto from = [&](int leg, int column, int row) { return table.distance(leg, problem.graph.at(column, row)); };
+    CAPTURE(rows);
+    CHECK(from(1, 0, 1) == 0);
+    CHECK(from(1, 0, 0) == 1);
+    CHECK(from(1, 2, 0) == whole - 1);
+    CHECK(from(0, 2, 0) == whole - 1);  // the step back is the first of the next leg
+    CHECK(from(0, 0, 0) == whole + whole - 1);
+    CHECK(from(0, 0, 8) == whole - 8 + whole - 1);
+    CHECK(from(1, 2, 8) == whole - 1 - 8);
+  }
 }
 
 TEST_CASE("joint positions prove that there is no plan, up to their limit") {

@@ -113,10 +113,7 @@ struct ConflictCase {
     constraints.fill(pair.agent(who), pair.of(who));
     return constraints;
   }
-  TourTable tour_table(int who) const {
-    std::vector<Location> queue;
-    return TourTable(pair.problem.graph, pair.agent(who), queue, never());
-  }
+  TourTable tour_table(int who) const { return TourTable(pair.problem.graph, pair.agent(who)); }
   Mdd mdd(int who) const {
     return Mdd(pair.problem.graph, pair.agent(who), tour_table(who), constraint_table(who),
                least[static_cast<std::size_t>(who)]);
