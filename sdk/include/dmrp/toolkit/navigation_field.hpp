@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,6 @@ class NavigationField {
   void compute(const GridView& grid, const std::vector<Rectangle>& targets, NavigationCost cost = {}) {
     begin(grid, targets, cost);
     march({});
-    for (std::uint32_t cell = 0; cell < grid_.size(); ++cell) finish(cell);
   }
 
   void compute(const GridView& grid, const Rectangle& target, NavigationCost cost = {}) {
@@ -55,7 +55,6 @@ class NavigationField {
     std::vector<std::uint32_t> starts;
     for (const dmrp_vec2 point : from) starts.push_back(grid.index_of(point));
     march(starts);
-    for (const std::uint32_t cell : order_) finish(cell);
   }
 
   // Whether the field was computed as far as the point's cell and those around it.
@@ -73,8 +72,12 @@ class NavigationField {
   double value(std::uint32_t cell) const { return values_[cell]; }
   bool reachable(std::uint32_t cell) const { return values_[cell] < unreachable; }
 
-  // The unit direction of steepest descent at a cell's centre; zero in a target and where no way leads to one.
-  dmrp_vec2 direction(std::uint32_t cell) const { return directions_[cell]; }
+  // The unit direction of steepest descent at a cell's centre; zero in a target and where no way leads to one. Computed
+  // at each call: most cells of a large field are never asked for.
+  dmrp_vec2 direction(std::uint32_t cell) const {
+    if (states_[cell] & is_aimed) return aims_.find(cell)->second;
+    return states_[cell] & is_settled ? descent(cell) : dmrp_vec2{0.0, 0.0};
+  }
 
   // At any point: bilinear between cell centres, or the value of the point's own cell where a neighbour is cut off. For
   // a point in no reachable cell (pushed against a wall) the distance to the nearest reachable cell's centre is added.
@@ -88,7 +91,7 @@ class NavigationField {
     double sum = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
       if (corners.cells[i] == no_cell) {
-        const double gained = dot(directions_[own], point - grid_.center(own));
+        const double gained = dot(direction(own), point - grid_.center(own));
         return std::max(0.0, values_[own] - gained * metre_cost(own));
       }
       sum += corners.weights[i] * values_[corners.cells[i]];
@@ -138,18 +141,21 @@ class NavigationField {
   Patch patch(std::uint32_t cell) const {
     assert(has_patch(cell));
     Patch patch = {grid_.center(cell), grid_.resolution_m(), {}};
-    patch.directions[4] = directions_[cell];
+    patch.directions[4] = direction(cell);
     for (std::size_t d = 0; d < strides_.size(); ++d) {
       // An edge always leads to a cell in the grid; the direction is zero in an unreachable cell.
       if (grid_.edge(cell, static_cast<int>(d)))
         patch.directions[static_cast<std::size_t>(4 + direction_dx[d] + 3 * direction_dy[d])] =
-            directions_[cell + strides_[d]];
+            direction(cell + strides_[d]);
     }
     return patch;
   }
 
  private:
   using Entry = std::pair<double, std::uint32_t>;  // value, cell: the order of settling
+
+  DMRP_LOCAL static constexpr std::uint8_t is_settled = 1;
+  DMRP_LOCAL static constexpr std::uint8_t is_aimed = 2;
 
   // The four cells whose centres surround a point, with their bilinear weights; no_cell for a cell that is not
   // connected to the point's own cell.
@@ -176,16 +182,15 @@ class NavigationField {
       for (const Entry& entry : queue_) order_.push_back(entry.second);
       for (const std::uint32_t cell : order_) {
         values_[cell] = unreachable;
-        directions_[cell] = {0.0, 0.0};
-        settled_[cell] = 0;
+        states_[cell] = 0;
       }
     } else {
       values_.assign(grid_.size(), unreachable);
-      directions_.assign(grid_.size(), {0.0, 0.0});
-      settled_.assign(grid_.size(), 0);
+      states_.assign(grid_.size(), 0);
     }
     order_.clear();
     queue_.clear();
+    aims_.clear();
   }
 
   // What the values of cells around a cell exceed its own by at most, and more, where a metre costs 1.
@@ -244,22 +249,30 @@ class NavigationField {
         const dmrp_vec2 aim = closest_point(target, center);
         const double away = distance(aim, center);
         if (overlap(target, square_of(cell))) {
-          offer(index, away * metre_cost(index), normalized(aim - center));
+          aim_at(index, away * metre_cost(index), normalized(aim - center));
         } else if (static_cast<double>(grid_.clearance(index)) - away >= cost_.comfort_m &&
                    line_is_free(grid_, center, aim)) {
           // No shape is as near as the target, and the clearance stays above comfort_m: the way is straight and costs
           // its length.
-          offer(index, away, normalized(aim - center));
+          aim_at(index, away, normalized(aim - center));
         }
       }
     }
   }
 
-  // A zero `direction` is computed later from the slope of the finished field.
-  void offer(std::uint32_t cell, double value, dmrp_vec2 direction) {
+  // The straight way to a target; a zero direction leaves the slope of the field.
+  void aim_at(std::uint32_t cell, double value, dmrp_vec2 direction) {
+    if (!(value < values_[cell])) return;
+    offer(cell, value);
+    if (direction == dmrp_vec2{0.0, 0.0}) return;
+    aims_[cell] = direction;
+    states_[cell] = is_aimed;
+  }
+
+  void offer(std::uint32_t cell, double value) {
     if (!(value < values_[cell])) return;
     values_[cell] = value;
-    directions_[cell] = direction;
+    states_[cell] = 0;
     queue_.emplace_back(value, cell);
     std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
   }
@@ -272,8 +285,8 @@ class NavigationField {
       std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
       const std::uint32_t cell = queue_.back().second;
       queue_.pop_back();
-      if (settled_[cell]) continue;
-      settled_[cell] = 1;
+      if (states_[cell] & is_settled) continue;
+      states_[cell] |= is_settled;
       if (!starts.empty()) {
         order_.push_back(cell);
         settled_starts += static_cast<std::size_t>(std::count(starts.begin(), starts.end(), cell));
@@ -282,14 +295,10 @@ class NavigationField {
       for (int direction = 0; direction < direction_count; direction += 2) {
         if (!grid_.edge(cell, direction)) continue;
         const std::uint32_t next = across(cell, direction);
-        if (!settled_[next]) offer(next, upwind_value(next), {0.0, 0.0});
+        if (!(states_[next] & is_settled)) offer(next, upwind_value(next));
       }
     }
     if (queue_.empty()) known_ = unreachable;
-  }
-
-  void finish(std::uint32_t cell) {
-    if (directions_[cell] == dmrp_vec2{0.0, 0.0}) directions_[cell] = descent(cell);
   }
 
   // The cell on the other side of an edge: always in the grid, so there is no bounds check.
@@ -301,7 +310,7 @@ class NavigationField {
   double settled_value(std::uint32_t cell, int direction) const {
     if (!grid_.edge(cell, direction)) return unreachable;
     const std::uint32_t next = across(cell, direction);
-    return settled_[next] ? values_[next] : unreachable;
+    return states_[next] & is_settled ? values_[next] : unreachable;
   }
 
   // Solves the eikonal equation at a cell from its settled neighbours.
@@ -317,7 +326,6 @@ class NavigationField {
 
   // The direction of the upwind differences that gave the value; zero in a target.
   dmrp_vec2 descent(std::uint32_t cell) const {
-    if (!reachable(cell)) return {0.0, 0.0};
     const auto slope = [&](int positive, int negative) {
       const double ahead = settled_value(cell, positive);
       const double behind = settled_value(cell, negative);
@@ -374,8 +382,8 @@ class NavigationField {
   NavigationCost cost_;
   std::vector<Rectangle> targets_;
   std::vector<double> values_;
-  std::vector<dmrp_vec2> directions_;
-  std::vector<std::uint8_t> settled_;
+  std::vector<std::uint8_t> states_;                   // of is_settled and is_aimed
+  std::unordered_map<std::uint32_t, dmrp_vec2> aims_;  // straight to a target, of the cells that are aimed
   std::vector<Entry> queue_;
   std::vector<std::uint32_t> order_;  // cells as they were settled, if not all were to be
   double known_ = unreachable;        // up to this value, all cells are settled
