@@ -113,9 +113,27 @@ Status Mpc::control(const Observation& now, Command& command) {
     set_error("every trajectory found runs into an obstacle");
     return Status::no_solution;
   }
+  leave_out_wait({now, obstacles, footprint});
   command = first_command(now);
   annotate(*solver_iterations);
   return Status::ok;
+}
+
+// Past a corner, the states before and behind it may keep their distance, and none between them: then a trajectory waits
+// for a step before it jumps, in every cycle anew. A first step that stays in place is left out if the rest is free at once.
+void Mpc::leave_out_wait(const mpc::Surroundings& around) {
+  const Limits& limits = around.now.limits;
+  if (is_car_like(limits)) return;
+  const double arm_m = is_holonomic(limits) ? 1.0 : around.now.footprint.radius_m;
+  const auto waits = [&](const mpc::Control& control) {
+    return std::max(std::abs(control.v), arm_m * std::abs(control.omega)) < standing_m_s;
+  };
+  std::size_t first = 0;
+  while (first + 1 < trajectory_.controls.size() && waits(trajectory_.controls[first])) ++first;
+  if (first == 0 || waits(trajectory_.controls[first])) return;
+  mpc::Trajectory rest = trajectory_;
+  rest.drop_front(first);
+  if (mpc::is_collision_free(rest, collision_check_no_poses, around)) trajectory_ = rest;
 }
 
 Command Mpc::first_command(const Observation& now) const {

@@ -94,6 +94,7 @@ class Mpc final : public PathController {
     const CostmapView& map;
   };
 
+  void leave_out_wait(const mpc::Surroundings& around);
   Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
