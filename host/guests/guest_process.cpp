@@ -206,7 +206,8 @@ void GuestProcess::fail(const GuestRequest& request) {
   } catch (const std::exception&) {  // no JSON, or not that of a fault
     end(request, {fault_kind::abi_breach, wrote_into_shared_memory});
   }
-  if (kind == fault_kind::out_of_memory && limits_.memory_mb > 0) detail += fmt::format(" (memory_mb = {})", limits_.memory_mb);
+  if (kind == fault_kind::out_of_memory && limits_.memory_mb > 0)
+    detail += fmt::format(" (memory_mb = {})", limits_.memory_mb);
   if (fatal) stop();
   throw PluginFault(known_kind(kind), {plugin_of(request, plugin), function.c_str(), step_of(request, step), robot},
                     detail, fatal);
