@@ -23,7 +23,7 @@ TourTable::TourTable(const GridGraph& graph, const Agent& agent)
   }
 }
 
-// From the goal of a leg to the end of the tour.
+// Counts the steps from the goal of a leg to the end of the tour.
 std::int32_t TourTable::rest_of_tour(const Agent& agent, std::int32_t leg) const {
   if (leg == agent.last_leg()) return 0;
   const Location goal = agent.goal(leg);
@@ -54,7 +54,7 @@ void TourTable::set(std::int32_t leg, Location location, Label label) const {
 
 std::int32_t TourTable::search_on(std::int32_t leg, Location location) const {
   Search& search = searches_[static_cast<std::size_t>(leg)];
-  if (const Label known = label(leg, location); known.is_expanded) return known.steps;
+  if (const Label known = label(leg, location); known.is_expanded) return known.steps;  // they are in Search::far
   for (;;) {
     if (search.open.empty()) search.open.swap(search.beyond);
     if (search.open.empty()) return unreachable;
@@ -65,7 +65,8 @@ std::int32_t TourTable::search_on(std::int32_t leg, Location location) const {
     set(leg, to, {steps, true});
     const std::int32_t east = graph_->column(search.toward) - graph_->column(to);
     const std::int32_t north = graph_->row(search.toward) - graph_->row(to);
-    const std::array<bool, 4> begins_nearer = {east<0, north<0, east> 0, north> 0};  // a move in this direction
+    // Tells of each direction whether a move in it begins nearer than it ends.
+    const std::array<bool, 4> begins_nearer = {(east < 0), (north < 0), (east > 0), (north > 0)};
     for (Direction d = 0; d < GridGraph::direction_count; ++d) {
       const Location from = graph_->predecessor(to, d);
       if (from == nowhere || label(leg, from).steps <= steps + 1) continue;
@@ -81,7 +82,7 @@ std::optional<std::vector<TourTable>> make_tour_tables(const Problem& problem, S
   tables.reserve(problem.agents.size());
   for (const Agent& agent : problem.agents) {
     tables.emplace_back(problem.graph, agent);
-    if (agent.start != nowhere) tables.back().distance(0, agent.start);
+    if (agent.start != nowhere) tables.back().distance(0, agent.start);  // most of the work, so that a stop is seen
     if (stop.poll_now()) return std::nullopt;
   }
   return tables;
