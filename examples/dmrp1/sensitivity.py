@@ -29,6 +29,11 @@ CONDITIONS = {
     "odometry drifts, a fix each 2 s": {"robot": {"odometry": {"noise": [0.05, 0.05, 0.05, 0.05], "fix_period_s": 2.0}}},
     "people and robots tracked": {"simulation": {"tracking": "visible"}},
     "tracked, velocities 0.3 m/s off": {"simulation": {"tracking": "visible", "tracking_velocity_noise_sd": 0.3}},
+    "local routes and monitor": {"navigation": {"route": "around", "monitor": True}},
+    "tracked, routes and monitor": {
+        "simulation": {"tracking": "visible"},
+        "navigation": {"route": "around", "monitor": True},
+    },
 }
 
 
