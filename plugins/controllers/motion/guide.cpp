@@ -38,14 +38,14 @@ constexpr std::size_t cells_per_point = 4;
 
 }  // namespace
 
-void Guide::read(const CostmapView& map, Vec2 robot, double needed_m, double easy_m) {
+void Guide::read(const CostmapView& map, Vec2 robot, double needed_m, double easy_m, Efforts& efforts) {
   const std::uint8_t highest = map.highest_cost_at(needed_m);
   const std::uint8_t highest_easy = map.highest_cost_at(easy_m);
   const auto cells = static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height());
-  efforts_.resize(cells);
+  efforts.resize(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     const std::uint8_t cost = map.costs()[i];
-    efforts_[i] = cost > highest ? 0 : cost > highest_easy ? close_effort : easy_effort;
+    efforts[i] = cost > highest ? 0 : cost > highest_easy ? close_effort : easy_effort;
   }
   const std::int32_t reach = static_cast<std::int32_t>(escape_m / map.resolution_m());
   const std::int32_t column = map.column_of(robot.x);
@@ -54,13 +54,13 @@ void Guide::read(const CostmapView& map, Vec2 robot, double needed_m, double eas
     for (std::int32_t c = column - reach; c <= column + reach; ++c) {
       if (!map.contains(c, r)) continue;
       const auto i = static_cast<std::size_t>(r * map.width() + c);
-      if (efforts_[i] == 0 && map.costs()[i] < DMRP_COST_LETHAL) efforts_[i] = escape_effort;
+      if (efforts[i] == 0 && map.costs()[i] < DMRP_COST_LETHAL) efforts[i] = escape_effort;
     }
   }
 }
 
 void Guide::spread(const CostmapView& map, Vec2 robot, double needed_m, double easy_m) {
-  read(map, robot, needed_m, easy_m);
+  read(map, robot, needed_m, easy_m, efforts_);
   costs_.assign(efforts_.size(), unreached);
   from_.assign(efforts_.size(), -1);
   for (std::vector<std::int32_t>& bucket : buckets_) bucket.clear();
@@ -94,29 +94,29 @@ void Guide::spread(const CostmapView& map, Vec2 robot, double needed_m, double e
 }
 
 bool Guide::connects(const CostmapView& map, Vec2 robot, Vec2 point, double needed_m) {
-  read(map, robot, needed_m, needed_m);
+  read(map, robot, needed_m, needed_m, unfilled_);
   const std::int32_t start = map.index_of(robot);
   const std::int32_t end = map.index_of(point);
-  if (start < 0 || end < 0 || efforts_[static_cast<std::size_t>(end)] == escape_effort) return false;
+  if (start < 0 || end < 0 || unfilled_[static_cast<std::size_t>(end)] == escape_effort) return false;
   if (start == end) return true;
-  if (efforts_[static_cast<std::size_t>(end)] == 0) return false;
-  // fills from the robot; a cell that has been filled counts as blocked, so that from_ has room for all of them
-  from_.resize(efforts_.size());
-  std::size_t pending = 0;
-  from_[pending++] = start;
-  efforts_[static_cast<std::size_t>(start)] = 0;
-  while (pending > 0) {
-    const std::int32_t cell = from_[--pending];
+  if (unfilled_[static_cast<std::size_t>(end)] == 0) return false;
+  // fills from the robot; a cell that has been filled counts as blocked
+  filled_.reserve(unfilled_.size());
+  filled_.assign(1, start);
+  unfilled_[static_cast<std::size_t>(start)] = 0;
+  while (!filled_.empty()) {
+    const std::int32_t cell = filled_.back();
+    filled_.pop_back();
     const std::int32_t column = cell % map.width();
     const std::int32_t row = cell / map.width();
     for (const Step& step : steps) {
       if (!map.contains(column + step.columns, row + step.rows)) continue;
       const std::int32_t next = cell + step.rows * map.width() + step.columns;
       if (next == end) return true;
-      std::uint8_t& effort = efforts_[static_cast<std::size_t>(next)];
+      std::uint8_t& effort = unfilled_[static_cast<std::size_t>(next)];
       if (effort == 0) continue;
       effort = 0;
-      from_[pending++] = next;
+      filled_.push_back(next);
     }
   }
   return false;

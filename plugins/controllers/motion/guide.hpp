@@ -25,7 +25,7 @@ class Guide {
   // not lethal is allowed.
   void spread(const CostmapView& map, Vec2 robot, double needed_m, double easy_m);
 
-  // Whether a search with this clearance would reach a point, sooner found than by spread(), whose result is lost.
+  // Whether a search with this clearance would reach a point. Sooner found than by spread(), whose result stays.
   bool connects(const CostmapView& map, Vec2 robot, Vec2 point, double needed_m);
 
   // Whether the search reached a point. After spread(), on the same map.
@@ -38,12 +38,16 @@ class Guide {
   static constexpr std::int32_t unreached = 0x7FFFFFFF;
   static constexpr std::size_t bucket_count = 64;  // more than the most expensive step
 
-  void read(const CostmapView& map, Vec2 robot, double needed_m, double easy_m);
+  using Efforts = std::vector<std::uint8_t>;  // cost factor of a step onto a cell; 0: blocked
 
-  std::vector<std::uint8_t> efforts_;  // cost factor of a step onto a cell; 0: blocked
+  static void read(const CostmapView& map, Vec2 robot, double needed_m, double easy_m, Efforts& efforts);
+
+  Efforts efforts_;
   std::vector<std::int32_t> costs_;
   std::vector<std::int32_t> from_;  // the previous cell
   std::array<std::vector<std::int32_t>, bucket_count> buckets_;
+  Efforts unfilled_;                  // of connects()
+  std::vector<std::int32_t> filled_;  // of connects(): cells whose neighbours it has yet to look at
 };
 
 }  // namespace dmrp::controllers

@@ -222,6 +222,26 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
   return target;
 }
 
+// The guide may lead past another robot where no trajectory keeps the distance from it: then this robot waits before the
+// first point that the other one takes. Nothing if it stands there already.
+std::optional<Mpc::Target> Mpc::place_before_obstacle(const Cycle& cycle, Target target) const {
+  const auto& [now, obstacles, footprint] = cycle.around;
+  if (!make_room || is_car_like(now.limits)) return {};
+  const std::vector<Vec2>& points = ahead_.points();
+  const auto occupied = std::find_if(points.begin(), points.end(), [&](Vec2 point) {
+    return footprint.cost(directed(point, target.goal.theta)) == in_collision;
+  });
+  if (occupied == points.begin() || occupied == points.end()) return {};
+  const auto last = static_cast<std::size_t>(occupied - points.begin()) - 1;
+  const Vec2 place = mpc::place_to_wait(guide_, cycle.map, points, last);
+  if (toolkit::distance(toolkit::position(now.pose), place) < wait_within_m) return {};
+  target.goal.x = place.x;
+  target.goal.y = place.y;
+  target.ends_at_rest = true;
+  target.fixes_heading = false;
+  return target;
+}
+
 // The guide knows of a disc only. A car-like robot, which cannot turn in place, stops only where its outline keeps the
 // distance that the problem demands: with less, the trajectory that brakes there may have no solution.
 bool Mpc::has_room(const Observation& now, const Pose& at) const {
@@ -303,7 +323,7 @@ mpc::OptimizerSettings Mpc::optimizer_settings() const {
 }
 
 // Optimises what is left of the last trajectory; if the result is not feasible, a trajectory along route_, then one
-// along the guide. Returns the number of solver iterations, or nothing if no result is feasible.
+// along the guide, which ends before what the guide leads past if it led there at once. Returns the number of solver iterations, or nothing if no result is feasible.
 std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
   const Observation& now = cycle.around.now;
   const mpc::OptimizerSettings settings = optimizer_settings();
@@ -325,9 +345,15 @@ std::optional<int> Mpc::plan(const Cycle& cycle, const Target& target) {
     if (is_solved(barrier_warm) && !stands_short(now)) return solver_iterations;
   }
   if (is_solved_along_route()) return solver_iterations;
-  if (target.is_guided) return {};  // route_ was the guide's already
-  const Vec2 goal = toolkit::position(target.goal);
-  spread_guide(now, cycle.map, goal);
+  Vec2 goal = toolkit::position(target.goal);
+  if (target.is_guided) {  // route_ was the guide's already
+    const std::optional<Target> place = place_before_obstacle(cycle, target);
+    if (!place) return {};
+    pose_problem(now, cycle.map, *place);
+    goal = toolkit::position(place->goal);
+  } else {
+    spread_guide(now, cycle.map, goal);
+  }
   if (!guide_.reaches(cycle.map, goal)) return {};
   guide_.path_to(cycle.map, goal, route_);
   return is_solved_along_route() ? std::optional(solver_iterations) : std::nullopt;

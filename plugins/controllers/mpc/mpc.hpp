@@ -98,6 +98,7 @@ class Mpc final : public PathController {
   Command first_command(const Observation& now) const;
   const std::vector<Obstacle>& gather_obstacles(const Observation& now, const CostmapView& map);
   std::optional<Target> choose_target(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
+  std::optional<Target> place_before_obstacle(const Cycle& cycle, Target target) const;
   void look_ahead(const Observation& now, const CostmapView& map, FootprintCheck& footprint);
   bool has_room(const Observation& now, const Pose& at) const;
   bool stands_at_wall(const Observation& now) const;

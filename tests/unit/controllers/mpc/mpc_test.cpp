@@ -472,12 +472,18 @@ TEST_CASE("The guide connects exactly the points that its search reaches") {
     dmrp_costmap c = fake.c();
     const CostmapView map(c);
     const dmrp_vec2 from = {random.uniform(0.0, 3.0), random.uniform(0.0, 3.0)};
-    Guide searching, filling;
-    searching.spread(map, from, 0.3, 0.4);
+    Guide guide;
+    guide.spread(map, from, 0.3, 0.4);
     for (int k = 0; k < 40; ++k) {
       const dmrp_vec2 to = {random.uniform(-0.1, 3.1), random.uniform(-0.1, 3.1)};
-      CHECK(filling.connects(map, from, to, 0.3) == searching.reaches(map, to));
-      connected += searching.reaches(map, to);
+      const bool connects = guide.connects(map, from, to, 0.3);
+      CHECK(connects == guide.reaches(map, to));
+      if (!connects) continue;
+      ++connected;
+      guide.connects(map, to, from, 0.6);  // what the search found stays
+      std::vector<dmrp_vec2> way;
+      guide.path_to(map, to, way);
+      CHECK(dmrp::toolkit::distance(way.front(), from) < 0.4);
     }
   }
   CHECK(connected > 50);
