@@ -27,7 +27,7 @@ WORLDS = ("library", "office", "hospital")
 LEAST_OF_MEAN, LEAST_OF_LEVEL = 0.02, 0.1
 
 # Of each controller: what a need's departures are called. All others are off in the variant; prediction, which no route
-# replaces, is never off. tuned: on.
+# replaces, is never off. tuned: on. All that a controller has is the tuned set, and no variant of its own.
 NEEDS = {
     "dwa": {
         "turns": {"turn_to_better_heading": "true"},
@@ -55,7 +55,8 @@ NEEDS = {
 def variants(controller: str) -> dict[str, dict[str, str]]:
     """What each variant sets over the tuned set."""
     bare = {key: "false" for need in NEEDS[controller].values() for key in need}
-    return {"tuned": {}, "bare": bare, **{name: bare | need for name, need in NEEDS[controller].items()}}
+    alone = {name: bare | need for name, need in NEEDS[controller].items() if need.keys() != bare.keys()}
+    return {"tuned": {}, "bare": bare, **alone}
 
 
 def uses(controllers: list[str]) -> str:
@@ -154,7 +155,7 @@ def table(controller: str, of_course: pd.DataFrame, of_tasks: pd.DataFrame) -> N
                 lost = levels_that(mine - bare, -1, 0.05 / (rows * levels))
                 cells.append(", ".join(gained + lost))
                 stays = stays or bool(gained)
-        decided = name in NEEDS[controller]
+        decided = name in NEEDS[controller] or len(NEEDS[controller]) == 1
         print(f"| {name} | {' | '.join(cells)} | {('stays' if stays else 'goes') if decided else ''} |")
 
 

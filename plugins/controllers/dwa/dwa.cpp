@@ -25,10 +25,6 @@ constexpr double turn_gain = 0.1;
 // The robot waits within this distance of a goal that is cut off.
 constexpr double wait_within_m = 0.15;
 
-// Below these the robot counts as standing.
-constexpr double standing_m_s = 0.05;
-constexpr double standing_rad_s = 0.05;
-
 // After standing for this long, the robot counts as stalled.
 constexpr std::int64_t stall_ns = 2'000'000'000;
 
@@ -184,8 +180,7 @@ std::optional<FootprintCheck> Dwa::room_to_leave_for(const Observation& now, con
 
 // True once each time that the robot has stood for stall_ns.
 bool Dwa::is_stalled(const Observation& now) {
-  const bool is_standing = speed_of(now.velocity) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
-  standing_ns_ = is_standing ? standing_ns_ + now.dt_ns : 0;
+  standing_ns_ = stands(now.velocity) ? standing_ns_ + now.dt_ns : 0;
   if (standing_ns_ < stall_ns) return false;
   standing_ns_ = 0;
   return true;

@@ -78,7 +78,7 @@ Status E3mop::control(const Observation& now, Command& command) {
   if (limits_.v_max != now.limits.v_max || limits_.omega_max != now.limits.omega_max) prepare(now);
   command = drive(now);
   // it cannot come closer
-  const bool stands = std::max(command.v_x, now.velocity.v_x) < standing_m_s;
+  const bool stands = std::max(command.v_x, now.velocity.v_x) < stopped_m_s;
   if (stands && at_goal_.settles(tracker_.stop(), now)) command = at_goal_.command(tracker_.stop(), now);
   return Status::ok;
 }

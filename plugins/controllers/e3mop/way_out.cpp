@@ -15,7 +15,7 @@ namespace {
 
 // A robot that stands for this time, and turns more slowly than this, looks for a way out.
 constexpr double patience_s = 1.0;
-constexpr double standing_rad_s = 0.1;
+constexpr double turning_rad_s = 0.1;
 
 // The way out is straight and free for `reach_m`; the robot drives `driven_m` of it, at `speed`.
 constexpr double reach_m = 0.3;
@@ -42,8 +42,8 @@ bool is_way_out(Vec2 from, double bearing, const FreeSpace& free_space) {
 }  // namespace
 
 bool WayOut::take(const Observation& now, const Command& command, double lead, const FreeSpace& free_space) {
-  const bool is_stopped = std::max(now.velocity.v_x, command.v_x) < standing_m_s &&
-                          std::max(std::abs(now.velocity.omega), std::abs(command.omega)) < standing_rad_s;
+  const bool is_stopped = std::max(now.velocity.v_x, command.v_x) < stopped_m_s &&
+                          std::max(std::abs(now.velocity.omega), std::abs(command.omega)) < turning_rad_s;
   stopped_s_ = is_stopped ? stopped_s_ + seconds(now.dt_ns) : 0.0;
   if (stopped_s_ < patience_s) return false;
   stopped_s_ = 0.0;

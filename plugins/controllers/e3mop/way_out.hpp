@@ -9,9 +9,6 @@
 
 namespace dmrp::controllers::e3mop {
 
-// Below this speed a robot stands.
-inline constexpr double standing_m_s = 0.02;
-
 // Beside an obstacle, a path may begin so nearly along it that the collision check stops every command, and a robot
 // that stands still has the same path again. It then turns in place to the direction nearest to its path in which it can
 // drive straight without coming closer to anything, drives a little, and plans anew from there.

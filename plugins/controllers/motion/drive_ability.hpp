@@ -61,8 +61,7 @@ class SteeringEstimate {
 
   // Once per control period.
   void update(const Observation& now) {
-    constexpr double standing_m_s = 0.02;
-    if (!is_car_like(now.limits) || std::abs(now.velocity.v_x) < standing_m_s) return;
+    if (!is_car_like(now.limits) || std::abs(now.velocity.v_x) < stopped_m_s) return;
     const double angle_rad = std::atan(now.velocity.omega * now.limits.wheelbase_m / now.velocity.v_x);
     angle_rad_ = std::clamp(angle_rad, -now.limits.steering_max, now.limits.steering_max);
   }

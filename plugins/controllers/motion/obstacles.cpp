@@ -136,7 +136,7 @@ void ObstacleSet::clear() {
   obstacles_.clear();
 }
 
-void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double standing_m_s) {
+void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double slow_m_s) {
   clear();
   const auto add = [this](const Vec2* vertices, std::uint32_t count) -> Obstacle& {
     vertices_.insert(vertices_.end(), vertices, vertices + count);
@@ -156,7 +156,7 @@ void ObstacleSet::gather(const Observation& now, const dmrp_obstacle_cluster_lis
     obstacle.radius_m = agent.radius_m;
     obstacle.is_agent = true;
     obstacle.is_robot = agent.kind == DMRP_AGENT_ROBOT;
-    if (toolkit::norm(agent.velocity) >= standing_m_s) obstacle.velocity = agent.velocity;
+    if (toolkit::norm(agent.velocity) >= slow_m_s) obstacle.velocity = agent.velocity;
   }
   // vertices_ no longer reallocates: set the pointers
   const Vec2* next = vertices_.data();

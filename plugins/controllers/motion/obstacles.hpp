@@ -9,6 +9,8 @@
 #include <dmrp/cpp/local_controller.hpp>
 #include <vector>
 
+#include "controllers/motion/unicycle.hpp"
+
 namespace dmrp::controllers {
 
 // A point, a segment or a convex polygon, enlarged by a radius. Moves at constant velocity.
@@ -38,8 +40,8 @@ struct Separation {
 class ObstacleSet {
  public:
   // Collects the clusters (`clusters` may be NULL), then the agents of the observation, each in their order. Agents
-  // slower than `standing_m_s` get velocity 0. Valid until the next gather().
-  void gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double standing_m_s = 0.05);
+  // slower than `slow_m_s` get velocity 0. Valid until the next gather().
+  void gather(const Observation& now, const dmrp_obstacle_cluster_list* clusters, double slow_m_s = standing_m_s);
   void clear();
 
   const std::vector<Obstacle>& all() const { return obstacles_; }

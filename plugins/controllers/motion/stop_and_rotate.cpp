@@ -24,10 +24,6 @@ constexpr double last_speed = 0.1;
 constexpr double last_fraction = 0.25;
 constexpr double ahead_rad = 0.2;
 
-// Below these the robot counts as stopped (trans_stopped_vel and rot_stopped_vel upstream).
-constexpr double standing_m_s = 0.02;
-constexpr double standing_rad_s = 0.02;
-
 }  // namespace
 
 double turning_rate(double angle, const Observation& now) {
@@ -49,6 +45,15 @@ Command braking(const Observation& now) {
   command.v_x = slower.x;
   command.v_y = slower.y;
   command.omega = toward(now.velocity.omega, 0.0, now.limits.alpha_max * period_s);
+  return command;
+}
+
+std::optional<Command> braking_turn(double angle, const Observation& now, const FootprintCheck& footprint) {
+  constexpr double free_s = 0.5;
+  constexpr int steps = 5;
+  Command command = braking(now);
+  command.omega = turning_rate(angle, now);
+  if (footprint.arc_cost(now.pose, 0.0, command.omega, free_s, steps) == in_collision) return {};
   return command;
 }
 
@@ -124,7 +129,7 @@ Command StopAndRotate::command(const StopPoint& stop, const Observation& now) {
   // stops turning at half the tolerance and starts again only above three quarters of it
   if (std::abs(angle) <= 0.5 * stop.tolerance_rad || std::isnan(stop.heading))
     turning_ = false;
-  else if (speed_of(now.velocity) <= standing_m_s && std::abs(now.velocity.omega) <= standing_rad_s)
+  else if (speed_of(now.velocity) <= stopped_m_s && std::abs(now.velocity.omega) <= stopped_rad_s)
     turning_ = turning_ || std::abs(angle) > 0.75 * stop.tolerance_rad;
   Command command = braking(now);
   if (turning_ && !is_car_like(now.limits)) command.omega = turning_rate(angle, now);

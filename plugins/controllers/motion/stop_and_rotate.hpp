@@ -3,6 +3,9 @@
 // place to its heading.
 #pragma once
 
+#include <optional>
+
+#include "controllers/motion/footprint_check.hpp"
 #include "controllers/motion/path_tracker.hpp"
 
 namespace dmrp::controllers {
@@ -13,6 +16,9 @@ double turning_rate(double angle, const Observation& now);
 
 // The command that brakes at the maximum deceleration; a car-like robot keeps its curvature.
 Command braking(const Observation& now);
+
+// Brakes and turns by this angle. Nothing if the outline would not be free for half a second of the turn.
+std::optional<Command> braking_turn(double angle, const Observation& now, const FootprintCheck& footprint);
 
 // A latch on the stop point: once the robot is close, command() controls it until the stop point moves or the robot is
 // pushed out of the tolerance. A replan to the same stop point does not release the latch.

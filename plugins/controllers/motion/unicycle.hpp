@@ -75,6 +75,18 @@ inline double speed_of(const Twist& velocity) {
   return std::hypot(velocity.v_x, velocity.v_y);
 }
 
+// Below these a robot has stopped (trans_stopped_vel and rot_stopped_vel upstream).
+inline constexpr double stopped_m_s = 0.02;
+inline constexpr double stopped_rad_s = 0.02;
+
+// Below these a robot, or somebody whom it sees, counts as standing.
+inline constexpr double standing_m_s = 0.05;
+inline constexpr double standing_rad_s = 0.05;
+
+inline bool stands(const Twist& velocity) {
+  return speed_of(velocity) < standing_m_s && std::abs(velocity.omega) < standing_rad_s;
+}
+
 // The highest speed at which the robot still stops within `distance` (metres or radians) if it keeps that speed for one
 // control period and then brakes at `deceleration`.
 inline double stopping_speed(double distance, double deceleration, double period_s) {

@@ -22,9 +22,6 @@ constexpr double easy_beyond_m = 0.15;
 // The largest residual of the constraints at which a solution is used.
 constexpr double most_infeasible = 0.05;
 
-// Below this speed the robot counts as standing.
-constexpr double standing_m_s = 0.05;
-
 // The robot waits within this distance of the point where its way is cut off.
 constexpr double wait_within_m = 0.1;
 
@@ -92,7 +89,7 @@ Status Mpc::control(const Observation& now, Command& command) {
   FootprintCheck footprint(map, now.footprint, 0.0, now.pose);
   if (turn_.goes_on(now, footprint, command)) return Status::ok;
   const std::vector<Obstacle>& obstacles = gather_obstacles(now, map);
-  const bool is_standing = std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s;
+  const bool is_standing = speed_of(now.velocity) < standing_m_s;
   const std::optional<Target> target = choose_target(now, map, footprint);
   if (!target) {
     // an obstacle cuts off the way and the robot is as close to it as it can come: wait
@@ -387,7 +384,7 @@ bool Mpc::can_continue() const {
 // upstream, this trajectory is infeasible, and the controller starts anew.
 bool Mpc::stands_short(const Observation& now) const {
   const mpc::State& end = trajectory_.states.back();
-  return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s &&
+  return speed_of(now.velocity) < standing_m_s &&
          std::hypot(problem_.goal.x - end.x, problem_.goal.y - end.y) > missed_m;
 }
 

@@ -16,10 +16,8 @@ namespace {
 // A robot faces the first point of its route beyond this distance.
 constexpr double face_ahead_m = 0.3;
 
-// The turn ends so close to its heading. The robot's outline must be free for so long.
+// The turn ends so close to its heading.
 constexpr double turned_rad = 0.05;
-constexpr double turn_check_s = 0.5;
-constexpr int turn_check_steps = 5;
 
 // A holonomic robot turns first where its speed along its way would be below this share of its greatest.
 constexpr double slow_share = 0.5;
@@ -49,14 +47,12 @@ bool TurnInPlace::begin_if_slow(const std::vector<Vec2>& route, const Observatio
 bool TurnInPlace::goes_on(const Observation& now, const FootprintCheck& footprint, Command& command) {
   if (!heading_) return false;
   const double angle = toolkit::difference(now.pose.theta, *heading_);
-  const double omega = turning_rate(angle, now);
-  if (std::abs(angle) < turned_rad ||
-      footprint.arc_cost(now.pose, 0.0, omega, turn_check_s, turn_check_steps) == in_collision) {
+  const std::optional<Command> turn = braking_turn(angle, now, footprint);
+  if (std::abs(angle) < turned_rad || !turn) {
     heading_.reset();
     return false;
   }
-  command = braking(now);
-  command.omega = omega;
+  command = *turn;
   return true;
 }
 

@@ -16,15 +16,7 @@ namespace {
 // Samples turn by less than this in a step: the series of the rollout are exact up to here.
 constexpr double most_turn_rad = 1.0;
 
-// Below these the robot counts as standing.
-constexpr double standing_m_s = 0.05;
-constexpr double standing_rad_s = 0.05;
-
 constexpr double spacing_m = static_cast<double>(mppi::path_spacing_m);
-
-bool is_standing(const Observation& now) {
-  return std::hypot(now.velocity.v_x, now.velocity.v_y) < standing_m_s && std::abs(now.velocity.omega) < standing_rad_s;
-}
 
 }  // namespace
 
@@ -95,7 +87,7 @@ Status Mppi::control(const Observation& now, Command& command) {
   }
   look(now);
   if (!optimize(now)) {
-    if (is_standing(now)) return Status::ok;
+    if (stands(now.velocity)) return Status::ok;
     set_error("every sampled trajectory runs into an obstacle");
     return Status::no_solution;
   }

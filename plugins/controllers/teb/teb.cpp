@@ -17,10 +17,6 @@ namespace {
 // The padding of the footprint in collision checks: about the distance between a cell's centre and its edge.
 constexpr double padding_m = 0.03;
 
-// Below this the robot counts as standing.
-constexpr double standing_m_s = 0.05;
-constexpr double standing_rad_s = 0.05;
-
 // While no band is feasible, a standing robot turns toward the path at this distance ahead, if the angle is larger than
 // the threshold.
 constexpr double face_ahead_m = 0.8;
@@ -233,9 +229,7 @@ Status Teb::wait(const Observation& now, FootprintCheck& footprint, Command& com
   const double angle = toolkit::difference(now.pose.theta, toolkit::bearing(toolkit::position(now.pose), ahead));
   const bool is_turning = std::abs(now.velocity.omega) > standing_rad_s;
   if (std::abs(angle) < (is_turning ? 0.2 : 1.0) * turn_begin_rad) return Status::ok;
-  Command turn = command;
-  turn.omega = turning_rate(angle, now);
-  if (footprint.arc_cost(now.pose, 0.0, turn.omega, 0.5, 5) != in_collision) command = turn;
+  command = braking_turn(angle, now, footprint).value_or(command);
   return Status::ok;
 }
 
