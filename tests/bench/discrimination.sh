@@ -138,7 +138,7 @@ controls() {
   done
 }
 
-# What a plan is worth: CBS whose order is kept against individual paths, in points of safe success, as declared for all
+# What a plan is worth: CBS whose order is kept against individual paths, in points of safe_sct, as declared for all
 # worlds; p by Holm over the worlds.
 contrasts() {
   local world runs
@@ -185,15 +185,15 @@ rows >"$out/rows.md"
     "$(tail -qn +2 "$out"/*.*/trials.csv | wc -l)" \
     "$(awk '{ seconds += $1 + $2 } END { printf "%.0f", seconds / 60 }' "$out/processor_seconds")" \
     "$(sed -n 's/^ *"commit": *"\([0-9a-f]*\)".*/\1/p' "$out"/*.*/manifest.json | sort -u | paste -s -d ' ')"
-  echo '| world | robots | people | factor | declared | tasks | mean safe success | at ceiling | D | eta² of safe success | eta² of time | halves | tasks for 5 points | interaction | |'
+  echo '| world | robots | people | factor | declared | tasks | mean safe_sct | at ceiling | D | eta² of safe_sct | eta² of time | halves | tasks for 5 points | interaction | |'
   echo '| --- | ---: | ---: | --- | --- | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: | --- | --- |'
   cat "$out/rows.md"
   printf '\nControls: one controller under two labels, and with v_max 10 %% lower. The first must give D at most 0.05, the second must be found: an effect of the time above zero.\n\n'
   echo '| world | two labels: D | 10 % slower: D | 10 % slower: eta² of time |'
   echo '| --- | ---: | ---: | --- |'
   controls
-  printf '\nWhat a plan is worth: CBS with `ordered` against individual paths with `free`, both driven by stop and wait. It must be 5 points of safe success, declared for all worlds, and p (Holm over the worlds) below 0.05.\n\n'
-  echo '| world | tasks | points of safe success | p (Holm) | |'
+  printf '\nWhat a plan is worth: CBS with `ordered` against individual paths with `free`, both driven by stop and wait. It must be 5 points of `safe_sct`, declared for all worlds, and p (Holm over the worlds) below 0.05.\n\n'
+  echo '| world | tasks | points of safe_sct | p (Holm) | |'
   echo '| --- | ---: | --- | --- | --- |'
   contrasts
   printf '\nPairs of robots whose own shortest paths conflict, and what the plan does about it: mean over the tasks.\n\n'
