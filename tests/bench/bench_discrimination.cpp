@@ -78,7 +78,7 @@ std::string interaction_words(const std::optional<RunInteraction>& found) {
 void print_text(const Discrimination& one, std::span<const std::string> runs, bool declared_time) {
   fmt::print("{}, {} robots: {} tasks, {} entries\n", one.scenario, one.robots, one.tasks, one.entries.size());
   for (const DiscriminationEntry& entry : one.entries)
-    fmt::print("  {:<40}  safe success {:.3f}  time {:.3f} s/m\n", entry.name, entry.share, entry.time);
+    fmt::print("  {:<40}  safe_sct {:.3f}  time {:.3f} s/m\n", entry.name, entry.share, entry.time);
   fmt::print("  mean {:.2f}, {} at the ceiling · D {}/{} = {:.2f} · partial eta squared {} (time {}) · halves {:.2f}\n",
              one.mean_share, one.at_ceiling, one.separated, one.pairs, one.separated_share(),
              effect_words(one.share_effect), effect_words(one.time_effect), one.half_agreement);
