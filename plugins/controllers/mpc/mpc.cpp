@@ -222,7 +222,8 @@ std::optional<Mpc::Target> Mpc::choose_target(const Observation& now, const Cost
 // The guide may lead past another robot where no trajectory keeps the distance from it: then this robot waits before the
 // first point that the other one takes. Nothing if it stands there already.
 std::optional<Mpc::Target> Mpc::place_before_obstacle(const Cycle& cycle, Target target) const {
-  const auto& [now, obstacles, footprint] = cycle.around;
+  const Observation& now = cycle.around.now;
+  FootprintCheck& footprint = cycle.around.footprint;
   if (!make_room || is_car_like(now.limits)) return {};
   const std::vector<Vec2>& points = ahead_.points();
   const auto occupied = std::find_if(points.begin(), points.end(), [&](Vec2 point) {
