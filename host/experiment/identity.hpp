@@ -12,7 +12,7 @@ namespace dmrp::host {
 
 // Raised by every change of the host or its plugins that moves values: runs of two behaviours are neither merged nor
 // continued. The first key of the identity.
-inline constexpr int behaviour = 14;
+inline constexpr int behaviour = 13;
 
 // Each key with its value as TOML text: "simulation.step_s" -> "0.02", "local_controller[1].use" -> "\"dmrp...\"".
 // Scenarios, with the files that they name, files that parameters name and files of plans stand by SHA-256, plugins by id and version, and

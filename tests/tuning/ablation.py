@@ -33,7 +33,7 @@ NEEDS = {
         "turns": {"turn_to_better_heading": "true"},
         "cannot start": {"leave_padding": "true"},
         "turns and cannot start": {"turn_to_better_heading": "true", "leave_padding": "true"},
-        "heavy path": {"leave_path_if_stalled": "true"},
+        "heavy path": {"leave_path_if_stalled": "true", "extend_path": "true"},
     },
     "teb": {
         "gaps": {"ease_from_start": "true", "ease_to_goal": "true"},

@@ -15,8 +15,18 @@ namespace {
 constexpr int headings_tried = 36;
 constexpr double probe_m = 0.4;
 
+// A turn in place begins if the chosen heading deviates by more than the first angle, and ends below the second.
+constexpr double turn_begin_rad = 0.3;
+constexpr double turn_end_rad = 0.1;
+
 // A turn must lower the critics' sum by this much. (The two goal critics add about 1.6 per metre.)
 constexpr double turn_gain = 0.1;
+
+// The robot waits within this distance of a goal that is cut off.
+constexpr double wait_within_m = 0.15;
+
+// After standing for this long, the robot counts as stalled.
+constexpr std::int64_t stall_ns = 2'000'000'000;
 
 }  // namespace
 
@@ -69,7 +79,7 @@ Status Dwa::choose(const Observation& now, const CostmapView& map, FootprintChec
   sample_window(now);
   const Vec2 robot = toolkit::position(now.pose);
   const dwa::FrontSettings settings = {now.footprint.inscribed_radius_m + footprint_padding,
-                                       max_global_plan_lookahead_dist, forward_point_distance};
+                                       max_global_plan_lookahead_dist, forward_point_distance, extend_path};
   const dwa::LocalGoal goal = fronts_.spread(tracker_, robot, now.pose.theta, map, reachable_boxes(now), settings);
   const double to_goal_m = toolkit::distance(robot, goal.at);
   if (goal.is_cut && to_goal_m < wait_within_m) return Status::ok;
@@ -168,10 +178,10 @@ std::optional<FootprintCheck> Dwa::room_to_leave_for(const Observation& now, con
   return leaving_ ? std::optional(room) : std::nullopt;
 }
 
-// True once each time that the robot has stood for patience_s.
+// True once each time that the robot has stood for stall_ns.
 bool Dwa::is_stalled(const Observation& now) {
   standing_ns_ = stands(now.velocity) ? standing_ns_ + now.dt_ns : 0;
-  if (seconds(standing_ns_) < patience_s) return false;
+  if (standing_ns_ < stall_ns) return false;
   standing_ns_ = 0;
   return true;
 }

@@ -72,6 +72,8 @@ class Dwa final : public PathController {
       param("leave_path_if_stalled", true)
           .doc(
               "departure: after standing for 2 s before a free path, the goal critics alone count for a nose's length");
+  Param<bool> extend_path =
+      param("extend_path", true).doc("departure: the path goes straight on beyond its end, by the nose's length");
 
   Status start(const Start& start) override;
 

@@ -14,7 +14,7 @@ LocalGoal PathFronts::spread(const PathTracker& tracker, Vec2 robot, double head
   lay_out_plan(tracker, map, settings.look_ahead_m);
   request(map, robot, boxes);
   const std::int32_t home = terrain_.nearest_free(terrain_.index_of(map, robot), escape_reach_cells);  // -1: none
-  spread_path(home);
+  spread_path(tracker, map, home, settings);
   LocalGoal goal;
   goal.at = robot;
   const std::int32_t goal_index = choose_goal(home, goal);
@@ -44,14 +44,30 @@ void PathFronts::lay_out_plan(const PathTracker& tracker, const CostmapView& map
   }
 }
 
-void PathFronts::spread_path(std::int32_t home) {
+void PathFronts::spread_path(const PathTracker& tracker, const CostmapView& map, std::int32_t home,
+                             const FrontSettings& settings) {
   path_.begin(terrain_);
   for (const PlanPoint& point : plan_) path_.seed(point.index);
+  if (settings.extends_path && tracker.remaining_m() <= settings.look_ahead_m)
+    seed_beyond_end(tracker, map, settings.nose_m);
   path_.spread();
   // cut off from the whole path: the robot stays about its position
   if (home >= 0 && !path_.reached(home)) {
     path_.seed(home);
     path_.spread();
+  }
+}
+
+// Extends the path straight on by the nose's length, as far as that is free. The nose reaches the path's end before the
+// robot does; without the extension the alignment critic would stop the robot short of its goal.
+void PathFronts::seed_beyond_end(const PathTracker& tracker, const CostmapView& map, double nose_m) {
+  const Vec2 end = tracker.point_at(tracker.end_m());
+  const Vec2 onward = toolkit::from_angle(tracker.heading_at(tracker.end_m(), 0.0));
+  const double step_m = 0.5 * map.resolution_m();
+  for (double beyond_m = step_m; beyond_m <= nose_m; beyond_m += step_m) {
+    const std::int32_t index = terrain_.index_of(map, end + beyond_m * onward);
+    if (!terrain_.is_free(index)) return;
+    path_.seed(index);
   }
 }
 

@@ -14,6 +14,7 @@ struct FrontSettings {
   double needed_m = 0.0;      // clearance that the robot's centre needs
   double look_ahead_m = 0.0;  // length of the path considered
   double nose_m = 0.0;        // from the robot's centre to its nose
+  bool extends_path = true;   // straight on beyond its end, by the nose's length
 };
 
 // An axis-aligned rectangle.
@@ -54,7 +55,9 @@ class PathFronts {
 
   void request(const CostmapView& map, Vec2 robot, const std::array<Box, 2>& boxes);
   void lay_out_plan(const PathTracker& tracker, const CostmapView& map, double look_ahead_m);
-  void spread_path(std::int32_t home);
+  void spread_path(const PathTracker& tracker, const CostmapView& map, std::int32_t home,
+                   const FrontSettings& settings);
+  void seed_beyond_end(const PathTracker& tracker, const CostmapView& map, double nose_m);
   void spread_goal(std::int32_t index, bool everywhere = false);
   std::int32_t choose_goal(std::int32_t home, LocalGoal& goal);
   void spread_nose(const CostmapView& map, Vec2 robot, double heading, std::int32_t goal_index, double nose_m,

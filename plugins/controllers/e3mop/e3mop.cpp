@@ -20,13 +20,15 @@ namespace {
 // The outermost part of the costmap's window that is not planned in.
 constexpr double window_margin_m = 0.15;
 
-// The robot turns in place to a path that starts at a larger angle than the first, until it is below the second. It follows
-// what is less aside: with turn_begin_rad and turn_end_rad, which are for robots that stand, it passes fewer u-traps.
-constexpr double aside_rad = 0.7;
-constexpr double turned_rad = 0.15;
+// A turn in place begins if the path starts at a larger angle than the first, and ends below the second.
+constexpr double turn_begin_rad = 0.7;
+constexpr double turn_end_rad = 0.15;
 
 // The path's direction at its start is that to the point at this distance.
 constexpr double lead_m = 0.25;
+
+// The robot waits within this distance of the point where its way is cut off.
+constexpr double wait_within_m = 0.2;
 
 // Where it lets somebody pass, it comes as close as this to the place beside its path.
 constexpr double lay_by_reached_m = 0.02;
@@ -122,7 +124,7 @@ Command E3mop::drive(const Observation& now) {
   bool is_shaped = may_turn && shape_path(now, plan->free_space);
   const Vec2 lead = lead_point(is_shaped);
   const double aside = toolkit::difference(plan->from.theta, toolkit::bearing(plan->from, lead));
-  turning_ = std::abs(aside) > (turning_ ? turned_rad : aside_rad);
+  turning_ = std::abs(aside) > (turning_ ? turn_end_rad : turn_begin_rad);
   if (turning_) {
     path_.clear();
     return guarded_turn(now, toolkit::difference(now.pose.theta, toolkit::bearing(now.pose, lead)), seen);

@@ -13,7 +13,8 @@ namespace dmrp::controllers::e3mop {
 
 namespace {
 
-// A robot that turns more slowly than this stands.
+// A robot that stands for this time, and turns more slowly than this, looks for a way out.
+constexpr double patience_s = 1.0;
 constexpr double turning_rad_s = 0.1;
 
 // The way out is straight and free for `reach_m`; the robot drives `driven_m` of it, at `speed`.
@@ -25,6 +26,9 @@ constexpr double ray_step_m = 0.02;
 // Directions to either side of the path's, so far apart.
 constexpr int directions_a_side = 32;
 constexpr double direction_step_rad = toolkit::pi / directions_a_side;
+
+// The robot drives once it faces the way out as closely as this.
+constexpr double facing_rad = 0.05;
 
 bool is_way_out(Vec2 from, double bearing, const FreeSpace& free_space) {
   DirectedPoint at = directed(from, bearing);
@@ -58,7 +62,7 @@ bool WayOut::take(const Observation& now, const Command& command, double lead, c
 Command WayOut::drive(const Observation& now, const FreeSpace& free_space) {
   const double aside = toolkit::difference(now.pose.theta, *bearing_);
   Command command;
-  if (std::abs(aside) > turn_end_rad) {
+  if (std::abs(aside) > facing_rad) {
     command = guarded_turn(now, aside, free_space);
     if (command.omega == 0.0) reset();
     return command;

@@ -18,7 +18,7 @@ class WayOut {
   void reset() { *this = {}; }
 
   // Once in each cycle with a path, of which `lead` is the bearing: true, and a way out is taken, if the robot has stood
-  // for patience_s, has commands that do not move it, and there is a way out.
+  // for a second, has commands that do not move it, and there is a way out.
   bool take(const Observation& now, const Command& command, double lead, const FreeSpace& free_space);
 
   bool is_taken() const { return bearing_.has_value(); }

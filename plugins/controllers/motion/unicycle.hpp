@@ -87,16 +87,6 @@ inline bool stands(const Twist& velocity) {
   return speed_of(velocity) < standing_m_s && std::abs(velocity.omega) < standing_rad_s;
 }
 
-// A robot that has stood for this long though it has a way looks for another one.
-inline constexpr double patience_s = 2.0;
-
-// A robot waits within this distance of the point where its way is cut off.
-inline constexpr double wait_within_m = 0.15;
-
-// A standing robot turns in place to what is farther aside than the first angle, until it is below the second.
-inline constexpr double turn_begin_rad = 0.5;
-inline constexpr double turn_end_rad = 0.1;
-
 // The highest speed at which the robot still stops within `distance` (metres or radians) if it keeps that speed for one
 // control period and then brakes at `deceleration`.
 inline double stopping_speed(double distance, double deceleration, double period_s) {

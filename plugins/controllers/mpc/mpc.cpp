@@ -22,6 +22,9 @@ constexpr double easy_beyond_m = 0.15;
 // The largest residual of the constraints at which a solution is used.
 constexpr double most_infeasible = 0.05;
 
+// The robot waits within this distance of the point where its way is cut off.
+constexpr double wait_within_m = 0.1;
+
 // A trajectory that ends farther from the goal misses it.
 constexpr double missed_m = 0.1;
 

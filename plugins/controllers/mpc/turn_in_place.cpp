@@ -16,6 +16,9 @@ namespace {
 // A robot faces the first point of its route beyond this distance.
 constexpr double face_ahead_m = 0.3;
 
+// The turn ends so close to its heading.
+constexpr double turned_rad = 0.05;
+
 // A holonomic robot turns first where its speed along its way would be below this share of its greatest.
 constexpr double slow_share = 0.5;
 
@@ -45,7 +48,7 @@ bool TurnInPlace::goes_on(const Observation& now, const FootprintCheck& footprin
   if (!heading_) return false;
   const double angle = toolkit::difference(now.pose.theta, *heading_);
   const std::optional<Command> turn = braking_turn(angle, now, footprint);
-  if (std::abs(angle) < turn_end_rad || !turn) {
+  if (std::abs(angle) < turned_rad || !turn) {
     heading_.reset();
     return false;
   }

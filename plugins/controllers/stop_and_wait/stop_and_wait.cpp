@@ -23,8 +23,8 @@ constexpr double at_corner_m = 0.05;
 constexpr double steer_to_m = 0.4;
 
 // It turns in place if that point is farther aside than the first angle, until it is nearer than the second.
-constexpr double aside_begin_rad = 0.3;
-constexpr double aside_end_rad = 0.05;
+constexpr double turn_begin_rad = 0.3;
+constexpr double turn_end_rad = 0.05;
 
 // The turn that must be free before the robot begins it.
 constexpr double turn_check_s = 0.5;
@@ -98,7 +98,7 @@ Status StopAndWait::control(const Observation& now, Command& command) {
   const Leg leg = current_leg();
   const Vec2 aside = toolkit::to_local(now.pose, leg.ahead);
   const double angle = std::atan2(aside.y, aside.x);
-  turning_ = std::abs(angle) > (turning_ ? aside_end_rad : aside_begin_rad);
+  turning_ = std::abs(angle) > (turning_ ? turn_end_rad : turn_begin_rad);
   if (turning_) {
     const double omega = turning_rate(angle, now);
     if (check.arc_cost(now.pose, 0.0, omega, turn_check_s, turn_check_steps) != in_collision) command.omega = omega;

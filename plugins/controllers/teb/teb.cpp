@@ -17,8 +17,10 @@ namespace {
 // The padding of the footprint in collision checks: about the distance between a cell's centre and its edge.
 constexpr double padding_m = 0.03;
 
-// While no band is feasible, a standing robot turns toward the path at this distance ahead.
+// While no band is feasible, a standing robot turns toward the path at this distance ahead, if the angle is larger than
+// the threshold.
 constexpr double face_ahead_m = 0.8;
+constexpr double turn_begin_rad = 0.5;
 
 // Occupied cells within this distance of an agent's disc count as the agent's.
 constexpr double agent_cells_m = 0.2;
@@ -226,7 +228,7 @@ Status Teb::wait(const Observation& now, FootprintCheck& footprint, Command& com
   const Vec2 ahead = tracker_.point_at_distance(toolkit::position(now.pose), face_ahead_m);
   const double angle = toolkit::difference(now.pose.theta, toolkit::bearing(toolkit::position(now.pose), ahead));
   const bool is_turning = std::abs(now.velocity.omega) > standing_rad_s;
-  if (std::abs(angle) < (is_turning ? turn_end_rad : turn_begin_rad)) return Status::ok;
+  if (std::abs(angle) < (is_turning ? 0.2 : 1.0) * turn_begin_rad) return Status::ok;
   command = braking_turn(angle, now, footprint).value_or(command);
   return Status::ok;
 }
